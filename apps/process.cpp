@@ -3,9 +3,10 @@
 
 #include <csignal>
 #include <cstddef>
-#include <vector>
+#include <new>
 
 #include <fcntl.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include "apps/files.hpp"
@@ -21,6 +22,12 @@ std::atomic<long> first_signal{0};  // second at which it came
 static_assert(std::atomic<long>::is_always_lock_free);
 
 constexpr std::size_t stack_needed = 1 << 20;
+
+// Where the limit is lower (`ulimit -s`), what a thread of that stack can do must do.
+[[nodiscard]] bool may_grow() {
+  rlimit limit{};
+  return ::getrlimit(RLIMIT_STACK, &limit) == 0 && limit.rlim_cur >= 2 * stack_needed;
+}
 
 [[gnu::noinline]] void touch_stack() {
   constexpr std::size_t page = 4096;
@@ -49,8 +56,8 @@ extern "C" void on_signal(int number) {
 }  // namespace
 
 void claim_stack() {
-  std::vector<char>().reserve(stack_needed);  // throws where there is not so much
-  touch_stack();
+  ::operator delete(::operator new(stack_needed));  // throws where there is not so much
+  if (may_grow()) { touch_stack(); }
 }
 
 void guard_process() {

@@ -96,7 +96,7 @@ HALFLIGHT_INLINE Effort next_effort(const AuditGoal& goal, std::uint64_t least, 
   }
   // A pilot in which a few points outshine all others knows little of either mean.
   const bool uneven = seen->equal_points < std::min(16.0, met / 4.0);
-  // Pilots that took more because they found the target met, until one did not, are followed by as much as that one took.
+  // Pilots may take more while they find the target met. When the last of them finds it missed, the audit takes as many rays as that one.
   const double left = std::max(goal.wanted ? own : 0.0, static_cast<double>(rays) - used);
   return best_effort({seen->variance, seen->noise_share, own / few, pilot.paths}, off, met / few, fewest,
                      uneven ? left : static_cast<double>(goal.rays_anyhow), left);
@@ -110,8 +110,8 @@ HALFLIGHT_INLINE std::optional<Effort> further_effort(const AuditGoal& goal, con
   const auto points = static_cast<double>(audit.points), met = static_cast<double>(sums.square.size());
   const double doubt = std::sqrt(seen->variance / met), target = goal.wanted ? *goal.wanted * *goal.wanted : 0.0;
   // A standard error of half of the mean square makes the interval as wide as its root; some less leaves room for chance. So it does for
-  // a target: the interval ends two standard errors above the mean. A mean closer to the target than `least_gap` of it may be so by chance,
-  // and to tell them apart takes more than a finer solution.
+  // a target: the interval ends two standard errors above the mean. A mean closer to the target than `least_gap` of it may be so by chance;
+  // then the target stays open, for a finer solution shows more for the same rays.
   constexpr double least_gap = 0.15;
   double off = 0.25 * std::max(seen->ratio, doubt), most = 0.5 * (std::max(seen->ratio, 0.0) + doubt);
   auto left = goal.rays_if_wide > 0 ? static_cast<double>(goal.rays + goal.rays_if_wide) - static_cast<double>(spent) : 0.0;

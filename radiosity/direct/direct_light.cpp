@@ -274,7 +274,7 @@ HALFLIGHT_INLINE void DirectLight::take_bodies(const std::vector<Surface>& surfa
   constexpr std::size_t most_facets = 200'000, most_of_one = 4096;
   std::size_t facets = 0;
   std::vector<raycast::PlacedObject> objects, second_halves;
-  std::vector<std::uint32_t> copies;  // of what is seen; no ray meets them
+  std::vector<std::uint32_t> copies;  // objects that are left out (raycast::Scene::leave_out)
   for (std::uint32_t o = 0; o < objects_->size(); ++o) {
     const raycast::PlacedObject& object = objects_->object(o);
     Body& body = bodies_[o];
@@ -301,14 +301,16 @@ HALFLIGHT_INLINE void DirectLight::take_bodies(const std::vector<Surface>& surfa
     facets += body.facets.facets.size();
     if (body.exact || object.inside() || (body.convex && object.object().nearest())) { continue; }
     const double tolerance = detail::stand_in_tolerance * object.bounds().diameter();
-    const auto halves = open_meshes(object, tolerance);
+    std::vector<StandIn> halves = open_meshes(object, tolerance);
     if (halves.empty()) { continue; }
-    objects.back() = raycast::PlacedObject{halves[0]};
-    second_halves.emplace_back(halves[1]);
+    objects.back() = raycast::PlacedObject{halves[0].mesh};
+    second_halves.emplace_back(halves[1].mesh);
     whole_.push_back(o);
     body.lift = 1.5 * tolerance;
-    facets += halves[0]->sheet_count() + halves[1]->sheet_count();
-    if (!body.convex && halves[0]->sheet_count() + halves[1]->sheet_count() <= most_of_one) { body.facets = facets_of(object, tolerance); }
+    const std::size_t faces = halves[0].sheets.size() + halves[1].sheets.size();
+    body.sheets = {std::move(halves[0].sheets), std::move(halves[1].sheets)};
+    facets += faces;
+    if (!body.convex && faces <= most_of_one) { body.facets = facets_of(object, tolerance); }
   }
   if (whole_.empty()) { return; }
   objects.insert(objects.end(), second_halves.begin(), second_halves.end());

@@ -17,6 +17,7 @@
 #include <glm/vec3.hpp>
 
 #include <raycast/box.hpp>
+#include <raycast/bundle.hpp>
 #include <raycast/scene.hpp>
 #include <raycast/shaft.hpp>
 
@@ -83,6 +84,11 @@ class DirectLight {
   [[nodiscard]] const raycast::Scene& objects() const { return *objects_; }
   [[nodiscard]] std::uint32_t whole(std::uint32_t o) const { return o < bodies_.size() ? o : whole_[o - bodies_.size()]; }
   [[nodiscard]] double lift(std::uint32_t o) const { return bodies_[o].lift; }
+  // The sheet of that object which a segment has met.
+  [[nodiscard]] std::uint32_t sheet(const raycast::Hit& hit) const {
+    const Body& body = bodies_[whole(hit.object)];
+    return body.lift > 0.0 ? body.sheets[hit.object < bodies_.size() ? 0 : 1][hit.sheet] : hit.sheet;
+  }
 
  private:
   friend class LitRegion;
@@ -94,6 +100,7 @@ class DirectLight {
     bool exact = false;   // its facets are it
     raycast::Box bounds;
     double lift = 0.0;  // above 0: meshes stand in for it where segments are asked, and points on it are lifted above them by so much
+    std::array<std::vector<std::uint32_t>, 2> sheets;  // then: of the faces of both
   };
   // Sheets that shine alike.
   struct Candidate {

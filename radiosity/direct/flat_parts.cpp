@@ -17,10 +17,10 @@
 namespace radiosity {
 
 HALFLIGHT_INLINE void append_flat_parts(const brep::Builder& boundary, const FaceCorners& face, std::vector<FaceCorners>& parts) {
-  constexpr double planar = 1e-12;  // brep::planarity, far above that of a plane
+  constexpr double planar = 1e-12;  // largest brep::planarity of what counts as planar: rounding leaves about 1e-16
   std::vector<glm::dvec3> positions;
   for (const std::uint32_t v : face) { positions.push_back(boundary.position(v)); }
-  if (face.size() == 3 || (face.size() > 4 && brep::planarity(positions) < planar)) {
+  if (face.size() <= 3 || (face.size() > 4 && brep::planarity(positions) < planar)) {
     parts.push_back(face);
     return;
   }

@@ -14,8 +14,9 @@ namespace radiosity {
 // Corners of a face, as vertices of the boundary, or of a part of it, in the same order.
 using FaceCorners = std::vector<std::uint32_t>;
 
-// Appends the face to `parts`: as it is when it is planar and has more than four corners, else in triangles, cut by its best inner
-// diagonals (brep/outline.hpp).
+// Appends the face, of three corners at least, to `parts`: as it is when it is planar, else in triangles, cut by its best inner diagonals
+// (brep/outline.hpp). Faces of four corners are always cut: on a curved surface some are planar by chance alone. Cost: O(n^4) for n corners
+// that are in no plane; there are rarely more than ten.
 void append_flat_parts(const brep::Builder& boundary, const FaceCorners& face, std::vector<FaceCorners>& parts);
 
 }  // namespace radiosity

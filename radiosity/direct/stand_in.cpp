@@ -62,18 +62,25 @@ namespace detail {
 
 }  // namespace detail
 
-HALFLIGHT_INLINE std::vector<std::shared_ptr<const raycast::Mesh>> open_meshes(const raycast::PlacedObject& object, double tolerance) {
+HALFLIGHT_INLINE std::vector<StandIn> open_meshes(const raycast::PlacedObject& object, double tolerance) {
   brep::Builder builder;
   object.approximate(tolerance, builder);
   std::vector<FaceCorners> faces;
+  std::vector<std::uint32_t> sheets;
   for (std::uint32_t f = 0; f < builder.face_count(); ++f) {
     const std::span<const std::uint32_t> c = builder.corners(f);
     if (builder.sheet(f) != brep::no_sheet) { append_flat_parts(builder, {c.begin(), c.end()}, faces); }
+    sheets.resize(faces.size(), builder.sheet(f));
   }
-  const std::span all{faces};
-  auto first = detail::open_mesh(builder, all.first(faces.size() / 2)), second = detail::open_mesh(builder, all.subspan(faces.size() / 2));
-  if (!first || !second) { return {}; }
-  return {std::move(first), std::move(second)};
+  std::vector<StandIn> halves;
+  const std::size_t half = faces.size() / 2;
+  for (const auto& [from, to] : {std::pair{std::size_t{0}, half}, std::pair{half, faces.size()}}) {
+    auto mesh = detail::open_mesh(builder, std::span{faces}.subspan(from, to - from));
+    if (!mesh) { return {}; }
+    halves.push_back(
+        {std::move(mesh), {sheets.begin() + static_cast<std::ptrdiff_t>(from), sheets.begin() + static_cast<std::ptrdiff_t>(to)}});
+  }
+  return halves;
 }
 
 }  // namespace radiosity

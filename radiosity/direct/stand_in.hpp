@@ -3,6 +3,7 @@
 
 // Triangle meshes that stand in for curved objects whose meeting with a segment takes long to compute.
 
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -11,9 +12,14 @@
 
 namespace radiosity {
 
+struct StandIn {
+  std::shared_ptr<const raycast::Mesh> mesh;
+  std::vector<std::uint32_t> sheets;  // of the object, by face of the mesh
+};
+
 // The object to a tolerance (a length) as two meshes that are open, so that each crossing of a segment decides by itself; none when they
 // make none.
-[[nodiscard]] std::vector<std::shared_ptr<const raycast::Mesh>> open_meshes(const raycast::PlacedObject& object, double tolerance);
+[[nodiscard]] std::vector<StandIn> open_meshes(const raycast::PlacedObject& object, double tolerance);
 
 }  // namespace radiosity
 

@@ -228,14 +228,16 @@ HALFLIGHT_INLINE double FinalGather::mend_near(Sum& sum, const Place& place, dou
   return better.variance;
 }
 
+HALFLIGHT_INLINE double FinalGather::of_reflected_channels(const Place& place, const Color& light) const {
+  double sum = 0.0;
+  for (int k = 0; k < 3; ++k) { sum += materials_[place.surface].reflectance[k] > 0.0 ? light[k] : 0.0; }
+  return sum;
+}
+
 HALFLIGHT_INLINE double FinalGather::irradiance_solved(const Place& place) const {
   const Material& material = materials_[place.surface];
   const Color reflected = solved(place).value_or(material.emission) - material.emission;
-  double sum = 0.0;
-  for (int k = 0; k < 3; ++k) {
-    if (material.reflectance[k] > 0.0) { sum += reflected[k] / material.reflectance[k]; }
-  }
-  return sum;
+  return of_reflected_channels(place, reflected / material.reflectance);
 }
 
 HALFLIGHT_INLINE FinalGather::Indirect FinalGather::indirect(const Place& place, std::uint32_t least, std::uint32_t most, double error,
@@ -263,15 +265,12 @@ HALFLIGHT_INLINE FinalGather::Indirect FinalGather::indirect(const Place& place,
     return squares;
   };
   // Where spots count, rays that met few of them are not believed because they agree: the solution must not know of more light.
-  std::optional<double> direct;  // light from lamps, sum of channels
+  std::optional<Color> direct;  // light from lamps
   const auto all_found = [&] {
-    const double wanted = (1.0 - error) * solved_light - 4.0 * mean_of_parts() / rays;
+    const double wanted = (1.0 - error) * solved_light - of_reflected_channels(place, sum.light) / rays;
     if (sender.aimed == 0 || sum.spots_met >= detail::enough_spots || wanted <= 0.0) { return true; }
-    if (!direct) {
-      const Color light = lit_region({&place, 1}).irradiance(place.point.position, place.point.normal);
-      direct = light.x + light.y + light.z;
-    }
-    return *direct >= wanted;
+    if (!direct) { direct = lit_region({&place, 1}).irradiance(place.point.position, place.point.normal); }
+    return of_reflected_channels(place, *direct) >= wanted;
   };
   const auto exact_enough = [&] { return variance_of_mean() <= error * error * mean_of_parts() * mean_of_parts() && all_found(); };
   for (; rays < least || (rays < most && (rays % 64 != 0 || !exact_enough())); rays += 16) {

@@ -84,7 +84,7 @@ class FinalGather {
     double nearness = 0.0;           // 1 / harmonic mean distance of what is seen, in the frame
     double nearness_of_light = 0.0;  // the same with each distance weighted by the light from there
   };
-  // Light that comes to a point by reflection, or from what is no lamp: by `least` rays, a multiple of 64, or as many more, up to `most`,
+  // Light that comes to a point by reflection, or from what is no lamp: by `least` rays, a positive multiple of 64, or as many more, up to `most`,
   // as it takes for the standard error to fall to this share of the light; what the mesh is too coarse for adds one of about this share of
   // all light there by at most so many paths (near_light.hpp). `key` names the point: it fixes the rays.
   [[nodiscard]] Indirect indirect(const Place& place, std::uint32_t least, std::uint32_t most, double error, std::uint64_t key,
@@ -130,7 +130,9 @@ class FinalGather {
   // Returns the variance that this adds.
   [[nodiscard]] double mend_near(Sum& sum, const Place& place, double all, std::uint32_t rays, double most_paths, double error,
                                  std::uint64_t key) const;
-  // What the solution says of a place: the sum of the channels that it reflects.
+  // The sum of the channels that the place reflects: the solution knows of no others there.
+  [[nodiscard]] double of_reflected_channels(const Place& place, const Color& light) const;
+  // That of the irradiance that the solution shows there, W/m2.
   [[nodiscard]] double irradiance_solved(const Place& place) const;
 
   Lookup lookup_;

@@ -25,7 +25,9 @@ inline constexpr std::uint32_t is_grid = 0xffffffff;  // in place of the count o
 inline constexpr std::size_t few_triangles = 4;       // are not divided
 inline constexpr double most_cells = 4096.0;          // of one grid
 inline constexpr int most_grids = 8;                  // within each other: where many triangles share a corner, no grid parts them
-inline constexpr std::size_t most_shares = 4;         // of a triangle in cells, on average: more, as of long slivers, take wider cells
+inline constexpr std::size_t most_listed = 64;        // triangles of a cell; of more none is looked at
+inline constexpr std::size_t most_shares = 64;        // of a triangle in the cells of all grids, on average
+inline constexpr std::size_t looks_a_share = 8;       // at cells, that may turn out not to meet the triangle
 inline constexpr double weight_slip = 1e-9;           // a point is in a triangle up to a weight of minus this
 inline constexpr double cell_slip = 1e-5;             // of its width: a triangle that near belongs to a cell
 inline constexpr double least_width = 1e-7;  // of what is divided, of the coordinates: their rounding is far below the slip of cells
@@ -60,6 +62,7 @@ HALFLIGHT_INLINE PlaneGrid::PlaneGrid(std::span<const Corners> triangles) {
   if (all.empty()) { return; }
   const glm::dvec2 most = glm::max(glm::abs(whole.lo), glm::abs(whole.hi));
   least_width_ = detail::least_width * std::max(most.x, most.y);
+  shares_left_ = detail::most_shares * all.size();
   root_ = divide(whole, all, bounds, 0);
 }
 
@@ -85,44 +88,52 @@ HALFLIGHT_INLINE PlaneGrid::Box PlaneGrid::box_of(const Grid& grid, std::uint32_
   return {grid.lo + (cell - detail::cell_slip) / grid.cells_per_length, grid.lo + (cell + 1.0 + detail::cell_slip) / grid.cells_per_length};
 }
 
-HALFLIGHT_INLINE std::vector<std::vector<std::uint32_t>> PlaneGrid::sort_into(const Grid& grid, const std::vector<std::uint32_t>& triangles,
-                                                                              const std::vector<Box>& bounds) const {
-  std::vector<std::vector<std::uint32_t>> in_cell(std::size_t{grid.size[0]} * grid.size[1]);
+HALFLIGHT_INLINE std::optional<PlaneGrid::InCells> PlaneGrid::sort_into(const Grid& grid, const std::vector<std::uint32_t>& triangles,
+                                                                        const std::vector<Box>& bounds, std::size_t most_shares) const {
+  InCells in_cells(std::size_t{grid.size[0]} * grid.size[1]);
+  std::size_t shares = 0, looks = 0;
   for (const std::uint32_t t : triangles) {
     const auto from = grid.cell_of(bounds[t].lo - detail::cell_slip / grid.cells_per_length);
     const auto to = grid.cell_of(bounds[t].hi + detail::cell_slip / grid.cells_per_length);
+    looks += std::size_t{to[0] - from[0] + 1} * (to[1] - from[1] + 1);
+    if (shares > most_shares || looks > detail::looks_a_share * most_shares) { return std::nullopt; }
     for (std::uint32_t y = from[1]; y <= to[1]; ++y) {
       for (std::uint32_t x = from[0]; x <= to[0]; ++x) {
-        if (meets(t, box_of(grid, x, y))) { in_cell[std::size_t{y} * grid.size[0] + x].push_back(t); }
+        if (!meets(t, box_of(grid, x, y))) { continue; }
+        in_cells[std::size_t{y} * grid.size[0] + x].push_back(t);
+        ++shares;
       }
     }
   }
-  return in_cell;
+  return shares > most_shares ? std::nullopt : std::optional{std::move(in_cells)};
 }
 
 HALFLIGHT_INLINE PlaneGrid::Cell PlaneGrid::divide(const Box& box, const std::vector<std::uint32_t>& triangles,
                                                    const std::vector<Box>& bounds, int depth) {
-  const auto extent = box.hi - box.lo;
+  const glm::dvec2 extent = box.hi - box.lo;
   const bool divisible =
       triangles.size() > detail::few_triangles && depth < detail::most_grids && std::min(extent.x, extent.y) > least_width_;
   double cells = divisible ? std::min(static_cast<double>(triangles.size()), detail::most_cells) : 1.0;
   for (; cells >= 2.0; cells /= 4.0) {
     Grid grid = grid_over(box, cells);
-    const std::vector<std::vector<std::uint32_t>> in_cell = sort_into(grid, triangles, bounds);
+    const std::size_t count = triangles.size(), more = (depth == 0 ? 3 * count : count) + std::size_t{grid.size[0]} * grid.size[1];
+    const std::optional<InCells> in_cells = sort_into(grid, triangles, bounds, count + std::min(more, shares_left_));
+    if (!in_cells) { continue; }
     std::size_t shares = 0;
-    for (const std::vector<std::uint32_t>& cell : in_cell) { shares += cell.size(); }
-    if (shares > (depth == 0 ? detail::most_shares : detail::most_shares / 2) * triangles.size() + in_cell.size()) { continue; }
+    for (const std::vector<std::uint32_t>& cell : *in_cells) { shares += cell.size(); }
+    shares_left_ -= std::min(shares_left_, shares - std::min(shares, count));
     grid.first_cell = static_cast<std::uint32_t>(cells_.size());
-    cells_.resize(cells_.size() + in_cell.size());
+    cells_.resize(cells_.size() + in_cells->size());
     const auto number = static_cast<std::uint32_t>(grids_.size());
     grids_.push_back(grid);
-    for (std::size_t k = 0; k < in_cell.size(); ++k) {
+    for (std::size_t k = 0; k < in_cells->size(); ++k) {
       const auto x = static_cast<std::uint32_t>(k % grid.size[0]), y = static_cast<std::uint32_t>(k / grid.size[0]);
-      const Cell made = divide(box_of(grid, x, y), in_cell[k], bounds, depth + 1);
+      const Cell made = divide(box_of(grid, x, y), (*in_cells)[k], bounds, depth + 1);
       cells_[grid.first_cell + k] = made;
     }
     return {number, detail::is_grid};
   }
+  if (triangles.size() > detail::most_listed) { return {}; }
   const auto first = static_cast<std::uint32_t>(items_.size());
   items_.insert(items_.end(), triangles.begin(), triangles.end());
   return {first, static_cast<std::uint32_t>(triangles.size())};

@@ -31,7 +31,8 @@ class PlaneGrid {
     std::uint32_t triangle = 0;
     glm::dvec3 weight{0.0};  // barycentric
   };
-  // The first triangle that holds a point of the plane, its edges included.
+  // The first triangle that holds a point of the plane, its edges included. Nothing where there is none, or where too many lie close
+  // together (slivers around one corner) for a grid to part them: then another search must tell.
   [[nodiscard]] std::optional<Found> find(const glm::dvec3& point) const;
 
  private:
@@ -69,13 +70,16 @@ class PlaneGrid {
   // A cell, and a little of what is around it.
   [[nodiscard]] static Box box_of(const Grid& grid, std::uint32_t x, std::uint32_t y);
   [[nodiscard]] bool meets(std::uint32_t triangle, const Box& cell) const;
-  [[nodiscard]] std::vector<std::vector<std::uint32_t>> sort_into(const Grid& grid, const std::vector<std::uint32_t>& triangles,
-                                                                  const std::vector<Box>& bounds) const;
+  // The triangles of each cell; nothing where that would take more than so many looks at cells, or shares of triangles in them.
+  using InCells = std::vector<std::vector<std::uint32_t>>;
+  [[nodiscard]] std::optional<InCells> sort_into(const Grid& grid, const std::vector<std::uint32_t>& triangles,
+                                                 const std::vector<Box>& bounds, std::size_t most_shares) const;
   // Makes the cell of these triangles, which all reach into the box.
   [[nodiscard]] Cell divide(const Box& box, const std::vector<std::uint32_t>& triangles, const std::vector<Box>& bounds, int depth);
 
   std::array<int, 2> axes_{0, 1};
   double least_width_ = 0.0;
+  std::size_t shares_left_ = 0;  // of triangles in cells, beyond one each
   std::vector<Weights> weights_;
   std::vector<Grid> grids_;
   std::vector<Cell> cells_;

@@ -39,7 +39,7 @@ class Csg final : public Object {
   // Of the first approximation: its chords are off the true surface by no more.
   [[nodiscard]] double chord_tolerance() const { return tolerance_; }
 
-  [[nodiscard]] Box bounds() const override { return mesh_ ? mesh_->bounds() : tree_->bounds(); }
+  [[nodiscard]] Box bounds() const override { return mesh_ ? mesh_->bounds() : region_.whole; }
   [[nodiscard]] bool convex() const override { return mesh_ ? mesh_->convex() : tree_->convex(); }
   [[nodiscard]] bool flat() const override { return mesh_ != nullptr; }
   [[nodiscard]] double slack() const override { return slack_; }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The meshes that stand in for curved objects where rays are cast.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -55,7 +56,7 @@ TEST_CASE("meshes stand in for any curved solid, and rays meet them where they m
   const double diameter = object.bounds().diameter(), tolerance = 0.0004 * diameter;
   const auto halves = radiosity::open_meshes(object, tolerance);
   REQUIRE(halves.size() == 2);
-  const raycast::Scene exact{{object}}, stand_in{{raycast::PlacedObject{halves[0]}, raycast::PlacedObject{halves[1]}}};
+  const raycast::Scene exact{{object}}, stand_in{{raycast::PlacedObject{halves[0].mesh}, raycast::PlacedObject{halves[1].mesh}}};
   constexpr int rays = 2000;
   int otherwise = 0;
   std::vector<double> off;
@@ -70,6 +71,9 @@ TEST_CASE("meshes stand in for any curved solid, and rays meet them where they m
       ++otherwise;
       continue;
     }
+    // The face knows of which sheet it is.
+    const raycast::SurfacePoint on = object.project(halves[b->object].sheets[b->sheet], ray.at(b->t));
+    CHECK(glm::length(on.position - ray.at(b->t)) < 4.0 * tolerance);
     const double across = std::abs(glm::dot(object.project(a->sheet, ray.at(a->t)).normal, d));
     off.push_back(across * std::abs(a->t - b->t) * 4.0 * diameter);
   }
@@ -78,4 +82,36 @@ TEST_CASE("meshes stand in for any curved solid, and rays meet them where they m
   CAPTURE(off.size(), otherwise, off.back() / tolerance);
   CHECK(otherwise <= rays / 100);
   CHECK(off[off.size() * 99 / 100] < 2.0 * tolerance);
+}
+
+// The two halves of a ball are two sheets of one sphere: which of them was met only the face knows, not the nearest sheet.
+TEST_CASE("meshes that stand in know the sheets of solids that share a surface", "[lamps]") {
+  const auto ball = raycast::Sphere::make({0, 0, 0}, 1.0).object;
+  const auto half = [&](const glm::dvec3& from, const glm::dvec3& to) {
+    raycast::CsgNode node{{}, "half", raycast::CsgOperation::intersect, {}, {}};
+    node.parts.push_back({ball, "ball", {}, {}, {}});
+    node.parts.push_back({scenes::box(from, to), "box", {}, {}, {}});
+    return node;
+  };
+  raycast::CsgNode both{{}, "both", raycast::CsgOperation::unite, {}, {}};
+  both.parts = {half({-2, -2, -2}, {2, 2, 0}), half({-2, -2, 0}, {2, 2, 2})};
+  const auto made = raycast::Csg::make(both);
+  REQUIRE(made.object);
+  const raycast::PlacedObject object{made.object};
+  const auto halves = radiosity::open_meshes(object, 0.001);
+  REQUIRE(halves.size() == 2);
+  const raycast::Scene exact{{object}}, stand_in{{raycast::PlacedObject{halves[0].mesh}, raycast::PlacedObject{halves[1].mesh}}};
+  radiosity::Random random{3, 0};
+  std::array<int, 2> met{};
+  for (int i = 0; i < 500; ++i) {
+    const glm::dvec3 d = radiosity::cosine_direction({0, 0, i % 2 == 0 ? 1 : -1}, random.uniform(), random.uniform());
+    if (std::abs(d.z) < 0.01) { continue; }
+    const raycast::Segment ray{3.0 * d, -3.0 * d};
+    const auto a = exact.closest(ray), b = stand_in.closest(ray);
+    REQUIRE((a && b));
+    CHECK(halves[b->object].sheets[b->sheet] == a->sheet);
+    met[d.z > 0.0 ? 1 : 0] += 1;
+CHECK(a->sheet != exact.closest({-3.0 * d, 3.0 * d})->sheet);
+  }
+  CHECK(std::min(met[0], met[1]) > 100);
 }
