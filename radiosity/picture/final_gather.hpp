@@ -84,9 +84,9 @@ class FinalGather {
     double nearness = 0.0;           // 1 / harmonic mean distance of what is seen, in the frame
     double nearness_of_light = 0.0;  // the same with each distance weighted by the light from there
   };
-  // Light that comes to a point by reflection, or from what is no lamp: by `least` rays, a positive multiple of 64, or as many more, up to `most`,
-  // as it takes for the standard error to fall to this share of the light; what the mesh is too coarse for adds one of about this share of
-  // all light there by at most so many paths (near_light.hpp). `key` names the point: it fixes the rays.
+  // Light that comes to a point by reflection, or from what is no lamp: by `least` rays, a positive multiple of 64, or as many more, up to
+  // `most`, as it takes for the standard error to fall to this share of the light; what the mesh is too coarse for adds one of about this
+  // share of all light there by at most so many paths (near_light.hpp). `key` names the point: it fixes the rays.
   [[nodiscard]] Indirect indirect(const Place& place, std::uint32_t least, std::uint32_t most, double error, std::uint64_t key,
                                   std::uint32_t most_paths = 256) const;
 

@@ -111,7 +111,7 @@ TEST_CASE("meshes that stand in know the sheets of solids that share a surface",
     REQUIRE((a && b));
     CHECK(halves[b->object].sheets[b->sheet] == a->sheet);
     met[d.z > 0.0 ? 1 : 0] += 1;
-CHECK(a->sheet != exact.closest({-3.0 * d, 3.0 * d})->sheet);
+    CHECK(a->sheet != exact.closest({-3.0 * d, 3.0 * d})->sheet);
   }
   CHECK(std::min(met[0], met[1]) > 100);
 }
