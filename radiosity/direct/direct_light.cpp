@@ -31,6 +31,7 @@
 #include <radiosity/direct/facets.hpp>
 #include <radiosity/direct/lamp_samples.hpp>
 #include <radiosity/direct/light_vector.hpp>
+#include <radiosity/direct/rims.hpp>
 #include <radiosity/direct/stand_in.hpp>
 #include <radiosity/direct/uncovered.hpp>
 #include <radiosity/hierarchy/curved_area.hpp>
@@ -113,7 +114,7 @@ HALFLIGHT_INLINE DirectLight::Lamp DirectLight::make_lamp(const raycast::Scene& 
     flat = flat && object.flat();
     Facets facets = part.sheets.size() > 1 ? facets_of(surface, part.sheets)
                     : object.exact()       ? facets_of(surface, sheet)
-                                           : facets_of(object, detail::facet_tolerance * object.bounds().diameter(), sheet);
+                                           : facets_of(object, outline_tolerance(object, detail::facet_tolerance), sheet);
     cut_out_covered(facets, part.object, objects, surfaces);
     for (const Facets::Facet& facet : facets.facets) {
       for (const glm::dvec3& p : facet.contour) { box.extend(p); }
@@ -296,7 +297,7 @@ HALFLIGHT_INLINE void DirectLight::take_bodies(const std::vector<Surface>& surfa
         body.convex = detail::convex_within(body.facets, detail::stand_in_tolerance * object.bounds().diameter());
       }
     } else if (body.convex) {
-      body.facets = facets_of(object, detail::facet_tolerance * object.bounds().diameter());
+      body.facets = facets_of(object, outline_tolerance(object, detail::facet_tolerance));
     }
     facets += body.facets.facets.size();
     if (body.exact || object.inside() || (body.convex && object.object().nearest())) { continue; }

@@ -17,6 +17,7 @@
 
 #include <radiosity/direct/facets.hpp>
 #include <radiosity/direct/light_vector.hpp>
+#include <radiosity/direct/rims.hpp>
 #include <radiosity/geometry/form_factor.hpp>
 
 #include "catch.hpp"
@@ -95,4 +96,33 @@ TEST_CASE("the facets of an intersection of round solids are planar, each edge h
     for (const radiosity::Facets::Edge& edge : facets.edges) { REQUIRE(edge.right != radiosity::Facets::none); }
   }
   CHECK(solids > 30);
+}
+
+// The rim of a lens of two equal spheres is a circle; its chords are the farther off it the thinner the lens.
+TEST_CASE("the outline of a lens is as near to its rim as to its surfaces, however thin the lens") {
+  const unsigned seed = std::random_device{}();
+  CAPTURE(seed);
+  std::mt19937 random(seed);
+  for (int run = 0; run < 12; ++run) {
+    const double radius = 0.5, sphere = radius * (1.0 + 5.0 * std::generate_canonical<double, 32>(random));
+    const double up = std::sqrt(sphere * sphere - radius * radius);
+    raycast::CsgNode lens{{}, "lens", raycast::CsgOperation::intersect, {}, {}};
+    for (const double side : {up, -up}) { lens.parts.push_back({raycast::Sphere::make({0, 0, side}, sphere).object, "side", {}, {}, {}}); }
+    const auto made = raycast::Csg::make(lens);
+    REQUIRE(made.object);
+    const raycast::PlacedObject object{made.object};
+    constexpr double part = 0.002;
+    const radiosity::Facets facets = radiosity::facets_of(object, radiosity::outline_tolerance(object, part));
+    int rim = 0;
+    double off = 0.0;
+    for (const radiosity::Facets::Edge& edge : facets.edges) {
+      const auto on_rim = [&](const glm::dvec3& p) { return std::abs(p.z) < 1e-6 && std::abs(glm::length(p) - radius) < 1e-6; };
+      if (!on_rim(edge.a) || !on_rim(edge.b)) { continue; }
+      ++rim;
+      off = std::max(off, radius - glm::length(0.5 * (edge.a + edge.b)));
+    }
+    CAPTURE(run, sphere, rim, off);
+    CHECK(rim > 20);
+    CHECK(off < 2.0 * part * 2.0 * radius);
+  }
 }

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#include <radiosity/direct/rims.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <numbers>
+#include <span>
+#include <utility>
+
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+#include <brep/builder_input.hpp>
+#include <brep/handles.hpp>
+
+#include <raycast/box.hpp>
+#include <raycast/inline.hpp>
+#include <raycast/transform.hpp>
+
+namespace radiosity {
+
+HALFLIGHT_INLINE double outline_tolerance(const raycast::PlacedObject& object, double part) {
+  constexpr double coarse = 0.02, least = 0.125, right_angle = 0.99, tight = 0.8;
+  const double bounds = object.bounds().diameter();
+  if (object.sheet_count() < 2) { return part * bounds; }
+  brep::Builder boundary;
+  object.approximate(coarse * bounds, boundary);
+  double share = 1.0;
+  raycast::Box box;
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> sheet_of_edge;
+  for (std::uint32_t f = 0; f < boundary.face_count(); ++f) {
+    const std::span<const std::uint32_t> corners = boundary.corners(f);
+    const std::uint32_t sheet = boundary.sheet(f);
+    for (std::size_t i = 0; i < corners.size() && sheet != brep::no_sheet; ++i) {
+      const std::uint32_t a = corners[i], b = corners[i + 1 < corners.size() ? i + 1 : 0];
+      box.extend(boundary.position(a));
+      const auto other = sheet_of_edge.find({b, a});
+      if (other == sheet_of_edge.end()) {
+        sheet_of_edge.insert_or_assign({a, b}, sheet);
+      } else if (other->second != sheet) {
+        const glm::dvec3 middle = 0.5 * (boundary.position(a) + boundary.position(b));
+        const glm::dvec3 sum = object.project(sheet, middle).normal + object.project(other->second, middle).normal;
+        share = std::min(share, 0.5 * glm::length(sum) * std::numbers::sqrt2);
+      }
+    }
+  }
+  const double size = box.empty() || box.diameter() > tight * bounds ? bounds : box.diameter();
+  return part * size * (share > right_angle ? 1.0 : std::max(share, least));
+}
+
+}  // namespace radiosity
