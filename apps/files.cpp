@@ -261,7 +261,7 @@ NewFolder::NewFolder(std::string path) : path_(std::move(path)) { made_ = std::f
 std::optional<std::string> NewFolder::fault() const {
   std::error_code ignored;
   if (fs::is_directory(path_, ignored)) { return std::nullopt; }
-  return "cannot make the folder " + path_ + ": " + (failed_ ? failed_.message() : "there is a file of that name");
+  return "cannot make the folder " + path_ + ": " + failed_.message();
 }
 
 NewFolder::~NewFolder() {

@@ -31,7 +31,7 @@
 #include <radiosity/direct/facets.hpp>
 #include <radiosity/direct/lamp_samples.hpp>
 #include <radiosity/direct/light_vector.hpp>
-#include <radiosity/direct/rims.hpp>
+#include <radiosity/direct/outline_tolerance.hpp>
 #include <radiosity/direct/stand_in.hpp>
 #include <radiosity/direct/uncovered.hpp>
 #include <radiosity/hierarchy/curved_area.hpp>

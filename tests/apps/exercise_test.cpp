@@ -118,6 +118,10 @@ TEST_CASE("exercise in the terminal: the list, the text, the verdict by exit cod
   const program::Run done = place.run("exercise 2 mine.euler");
   CHECK(done.code == 0);
   CHECK(done.out == "exercise 2: solved\n");
+  const program::Run again = place.run("exercise 2 -o mine.euler");  // takes no solution away
+  CHECK(again.code == 1);
+  CHECK(again.err == "halflight: mine.euler is there already, and may hold your solution; name another file, or remove it\n");
+  CHECK(place.run("exercise 2 mine.euler").code == 0);
   CHECK(place.run("exercise 7 mine.euler").err.find("sh examples/exercises/check.sh 7 mine.euler") != std::string::npos);
   CHECK(place.run("exercise 13").code == 2);
 }

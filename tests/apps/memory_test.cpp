@@ -3,6 +3,8 @@
 // Memory as the user of the program means it: sizes as they are written, the limit on the whole process, the peak of a run.
 
 #include <algorithm>
+#include <filesystem>
+#include <string>
 #include <vector>
 
 #include <radiosity/result/audit.hpp>
@@ -65,6 +67,23 @@ TEST_CASE("render --memory: refused with a sentence, or the best within the limi
 
   const program::Run wrong = place.run(render + "--memory much");
   CHECK(wrong.code == 2);
+}
+
+TEST_CASE("whatever the address space is limited to, a picture is drawn or refused with a sentence, and no signal ends the program") {
+  const program::Place place;
+  int refused = 0;
+  for (int kilobytes = 14'000; kilobytes < 60'000; kilobytes += 1500) {
+    const program::Run run = place.run("render '" HALFLIGHT_SCENES "/cornell.scene' --quiet --audit 0 --size 64x64 -o a.png",
+                                       "ulimit -v " + std::to_string(kilobytes) + "; ");
+    CAPTURE(kilobytes, run.err);
+    CHECK((run.code == 0 || run.code == 1 || run.code == 4));
+    if (run.code == 0) { continue; }
+    ++refused;
+    CHECK(run.err.find("memory") != std::string::npos);
+    CHECK(place.has("a.png") == (run.code == 4));
+    if (run.code == 4) { std::filesystem::remove(place.path() / "a.png"); }
+  }
+  CHECK(refused > 3);
 }
 
 TEST_CASE("the peak of a run does not contain what others took before") {

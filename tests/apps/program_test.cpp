@@ -255,6 +255,16 @@ TEST_CASE("a target that cannot be written is exit code 1 before the work, and t
   CHECK(place.entries() == 1);
 }
 
+TEST_CASE("a folder that cannot be made is told with the reason, and a word of one letter suggests no other") {
+  const Place place;
+  place.write("there", "");
+  CHECK(place.run("figures -o there").err == "halflight: cannot make the folder there: Not a directory\n");
+  CHECK(place.run("figures -o there/in").err == "halflight: cannot make the folder there/in: Not a directory\n");
+  const Run up = place.run("info " + scene("room") + " --up w");
+  CHECK(up.code == 2);
+  CHECK(up.err.find("did you mean") == std::string::npos);
+}
+
 TEST_CASE("a run that does not converge is exit code 4, and what was reached is written") {
   const Place place;
   // Jacobi shrinks the error by the reflectance in each iteration: 1000 of them are far from enough here.

@@ -178,6 +178,8 @@ TEST_CASE("memory limit of an error target: the round before, and it says so") {
   CHECK(run.peak <= *options.memory);
   CHECK_FALSE(run.outcome.solution->audit.shortage.empty());
   CHECK_FALSE(run.outcome.solution->audit.converged);
+  CHECK(run.outcome.solution->audit.target_missed);
+  CHECK(run.outcome.solution->audit.rounds_ended_by == "want of memory");
 }
 
 TEST_CASE("memory limit of a dense matrix: refused before it is made") {

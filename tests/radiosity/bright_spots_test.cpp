@@ -29,6 +29,7 @@
 #include <radiosity/support/random.hpp>
 
 #include "catch.hpp"
+#include "families.hpp"
 #include "scenes.hpp"
 #include "solved.hpp"
 
@@ -237,15 +238,8 @@ TEST_CASE("light of bright spots has no bias, flat or round", "[picture]") {
     const radiosity::FinalGather light{room.scene, solution.mesh, solution.frame};
     const glm::dvec3 x{0.3, -0.2, 0.0};
     const radiosity::FinalGather::Place place{{(x - solution.frame.centre) * solution.frame.scale, {0, 0, 1}}, 0, 0};
-    constexpr int families = 64;
-    double sum = 0.0, squares = 0.0;
-    for (std::uint64_t key = 0; key < families; ++key) {
-      const double value = light.indirect(place, 1024, 1024, 0.0, radiosity::scramble(seed) + key).irradiance.x;
-      sum += value / families;
-      squares += value * value / families;
-    }
-    const double standard_error = std::sqrt((squares - sum * sum) / (families - 1));
-    CHECK(std::abs(sum - room.irradiance(x)) < 5.0 * standard_error + 0.003 * room.irradiance(x));
+    const auto [mean, standard_error] = scenes::gathered(light, place, seed);
+    CHECK(std::abs(mean - room.irradiance(x)) < 5.0 * standard_error + 0.003 * room.irradiance(x));
   }
 }
 

@@ -16,6 +16,7 @@
 #include <radiosity/support/random.hpp>
 
 #include "catch.hpp"
+#include "families.hpp"
 #include "scenes.hpp"
 #include "solved.hpp"
 
@@ -52,15 +53,8 @@ TEST_CASE("light of a bright spot for which a mesh stands in has no bias", "[pic
   const std::vector<glm::dvec3> ceiling{{-4, 4, 1}, {4, 4, 1}, {4, -4, 1}, {-4, -4, 1}};
   const double truth = radiosity::point_to_polygon(x, {0, 0, 1}, ceiling) + (radiosity - 1.0) * spot;
   const radiosity::FinalGather::Place place{{(x - solution.frame.centre) * solution.frame.scale, {0, 0, 1}}, 0, 0};
-  constexpr int families = 64;
-  double sum = 0.0, squares = 0.0;
-  for (std::uint64_t key = 0; key < families; ++key) {
-    const double value = light.indirect(place, 1024, 1024, 0.0, radiosity::scramble(seed) + key).irradiance.x;
-    sum += value / families;
-    squares += value * value / families;
-  }
-  const double standard_error = std::sqrt((squares - sum * sum) / (families - 1));
-  CAPTURE(sum, truth);
-  CHECK(std::abs(sum - truth) < 5.0 * standard_error + (0.003 + 0.0016) * truth);
-  CHECK(standard_error < 0.5 * radiosity * std::sqrt(spot / (1024.0 * families)));
+  const auto [mean, standard_error] = scenes::gathered(light, place, seed);
+  CAPTURE(mean, truth);
+  CHECK(std::abs(mean - truth) < 5.0 * standard_error + (0.003 + 0.0016) * truth);
+  CHECK(standard_error < 0.5 * radiosity * std::sqrt(spot / (static_cast<double>(scenes::rays_of_family) * scenes::families)));
 }

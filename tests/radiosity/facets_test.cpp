@@ -17,7 +17,7 @@
 
 #include <radiosity/direct/facets.hpp>
 #include <radiosity/direct/light_vector.hpp>
-#include <radiosity/direct/rims.hpp>
+#include <radiosity/direct/outline_tolerance.hpp>
 #include <radiosity/geometry/form_factor.hpp>
 
 #include "catch.hpp"

@@ -16,5 +16,5 @@ namespace radiosity {
 }  // namespace radiosity
 
 #ifdef HALFLIGHT_HEADER_ONLY
-#include <radiosity/direct/rims.cpp>
+#include <radiosity/direct/outline_tolerance.cpp>
 #endif

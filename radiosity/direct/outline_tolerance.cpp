@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <radiosity/direct/rims.hpp>
+#include <radiosity/direct/outline_tolerance.hpp>
 
 #include <algorithm>
 #include <cstddef>
