@@ -72,7 +72,7 @@ TEST_CASE("memory limit of F-refinement: the best that fits, finer with more mem
     REQUIRE(whole.outcome.solution);
     const std::uint64_t of_scene = peak_of_scene(scene, options);
     std::vector<std::uint64_t> all = limits();
-    all.push_back(10'000);  // less than its patches take
+    all.push_back(10'000);     // less than its patches take
     all.push_back(1'090'000);  // where tables of few rows once took .4 % more
     for (int i = 0; i < 20; ++i) { all.push_back(of_scene / 2 + random() % (3 * whole.peak)); }
     std::sort(all.begin(), all.end());
