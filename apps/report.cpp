@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include <radiosity/audit/audit_effort.hpp>
+#include <radiosity/result/error_estimate.hpp>
 #include <radiosity/scene/material.hpp>
 #include <radiosity/support/left_out.hpp>
 
@@ -14,13 +15,16 @@ namespace {
 
 std::string error_text(const std::optional<radiosity::ErrorEstimate>& error) {
   if (!error) { return "not measured"; }
-  if (error->low == 0.0) { return error->high > 0.0 ? "below " + percent(error->high) : "none"; }  // lost in the noise of path tracing
+  if (error->high == 0.0) { return "none"; }
+  // Lost in the noise of path tracing, or small and not known any closer.
+  const bool small = error->high <= radiosity::negligible_error && radiosity::is_wide(*error);
+  if (error->low == 0.0 || small) { return "below " + percent(error->high); }
   return percent(error->relative_l2) + "  (" + percent(error->low) + " to " + percent(error->high) + ")";
 }
 
-// Does the interval leave open how large the error is? Below half a percent nobody asks.
+// Does the interval leave open how large the error is?
 bool wide(const radiosity::ErrorEstimate& error) {
-  return error.high > 0.005 && error.high - error.low > std::max(0.01, 1.5 * error.relative_l2);
+  return error.high > radiosity::negligible_error && error.high - error.low > std::max(0.01, 1.5 * error.relative_l2);
 }
 
 std::string lost_rays(const radiosity::StrayRays& stray) {

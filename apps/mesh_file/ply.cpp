@@ -65,6 +65,9 @@ class PlyReader {
         if (out_.full() || !(text_ ? text_element(element, i) : binary_element(element, i))) { return; }
       }
     }
+    if (out_.good() && out_.mesh.builder.face_count() == 0) {  // strips in which a corner stands twice in every triangle
+      out_.error(text_ ? lines_.place(0) : Place{0, static_cast<std::uint32_t>(at_)}, no_faces_in(vertices_));
+    }
     const bool more = text_ ? lines_.next() : at_ < bytes_.size();
     if (more) { out_.mesh.notes.push_back("what follows the last element was passed over; does the header count too few?"); }
   }

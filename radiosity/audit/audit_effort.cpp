@@ -15,13 +15,13 @@ namespace radiosity {
 namespace detail {
 
 // The standard error of the mean that shows what the goal asks for, by what a pilot saw in which `met` points count. The pilot's own doubt
-// stands in for an error that it hides; an error below `negligible` need not be known.
+// stands in for an error that it hides.
 [[nodiscard]] HALFLIGHT_INLINE double standard_error_needed(const AuditGoal& goal, const ErrorSums::Moments& seen, double met) {
-  constexpr double negligible = 0.005, reserve = 1.1;  // a pilot sees the variance mostly too small
+  constexpr double reserve = 1.1;  // a pilot sees the variance mostly too small
   const double target = goal.wanted ? *goal.wanted * *goal.wanted : 0.0;
   const double doubt = std::sqrt(seen.variance / met);
   return (goal.wanted ? std::max(std::abs(target - seen.ratio), 0.1 * target) / 2.5
-                      : std::max(0.25 * std::max(seen.ratio, doubt), 0.5 * negligible * negligible)) /
+                      : std::max(0.25 * std::max(seen.ratio, doubt), 0.5 * negligible_error * negligible_error)) /
          reserve;
 }
 

@@ -113,11 +113,6 @@ struct Effort {
 [[nodiscard]] Effort next_effort(const AuditGoal& goal, std::uint64_t least, const Effort& pilot, const ErrorSums& seen, std::uint64_t rays,
                                  std::uint64_t spent);
 
-// Is the interval of the error wider than the error itself, or is the error lost in the noise?
-[[nodiscard]] inline bool is_wide(const ErrorEstimate& error) {
-  return error.high > 0.0 && (error.low <= 0.0 || error.high - error.low > error.relative_l2);
-}
-
 // What makes the interval of an audit narrow, for what is left of rays and rays_if_wide; or shows a target that the audit found met but did
 // not show, for what is left of rays and rays_to_show. Nothing where the audit does as it is, or where that would hardly be reached.
 // `rays`: of that audit; `spent`: with all pilots.

@@ -24,6 +24,14 @@ struct ErrorEstimate {
   [[nodiscard]] bool above(double wanted) const { return low > wanted; }
 };
 
+// An error that need not be known any closer: no audit is made larger for it.
+inline constexpr double negligible_error = 0.005;
+
+// Is the interval of the error wider than the error itself, or is the error lost in the noise?
+[[nodiscard]] inline bool is_wide(const ErrorEstimate& error) {
+  return error.high > 0.0 && (error.low <= 0.0 || error.high - error.low > error.relative_l2);
+}
+
 // Samples of the two mean squares, one a point.
 struct ErrorSums {
   std::vector<double> square, reference;  // (b1 - B)(b2 - B) and (b1 - E)(b2 - E)

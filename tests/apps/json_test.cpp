@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <string_view>
 
 #include <radiosity/result/audit.hpp>
 #include <radiosity/result/error_estimate.hpp>
@@ -100,4 +101,21 @@ TEST_CASE("the report has its documented keys") {
   audit.leaf_error.reset();
   CHECK(json::parse(apps::to_json(report))["error"].is_null());
   CHECK(apps::to_text(report).find("not measured") != std::string::npos);
+}
+
+TEST_CASE("an error is told with its interval, or as below its upper end where noise hides it, or where it is small and not known closer") {
+  const auto leaves = [](const radiosity::ErrorEstimate& error) {
+    apps::Report report;
+    report.audit.leaf_error = error;
+    const std::string text = apps::to_text(report);
+    const std::size_t at = text.find("leaf constants") + std::string_view("leaf constants").size();
+    const std::string row = text.substr(at, text.find('\n', at) - at);
+    return row.substr(row.find_first_not_of(' '));
+  };
+  CHECK(leaves({0.02, 0.001, 0.018, 0.022}) == "2 %  (1.8 % to 2.2 %)");
+  CHECK(leaves({0.002, 0.0001, 0.0018, 0.0022}) == "0.2 %  (0.18 % to 0.22 %)");
+  CHECK(leaves({0.002, 0.0006, 0.0008, 0.0032}) == "below 0.32 %");
+  CHECK(leaves({0.02, 0.006, 0.008, 0.032}) == "2 %  (0.8 % to 3.2 %)");
+  CHECK(leaves({0.02, 0.02, 0.0, 0.04}) == "below 4 %");
+  CHECK(leaves({0.0, 0.0, 0.0, 0.0}) == "none");
 }

@@ -63,6 +63,8 @@ TEST_CASE("errors say where they lie, what was expected and what was found") {
   CHECK(begins(error(replaced(head, "face 1", "tristrips 1") + replaced(body, "3 0 1 2", "3 0 1 -2"), as_ply),
                ":13:7: error: expected a vertex, a number from 0 to 2, found '-2'"));
   CHECK(begins(error(replaced(head, "face 1", "tristrips 0") + body, as_ply), ":9:1: error: the file has no faces"));
+  CHECK(begins(error(replaced(head, "face 1", "tristrips 1") + replaced(body, "3 0 1 2", "3 0 1 0"), as_ply),
+               ":13:1: error: the file has no faces, but 3 vertices"));
   CHECK(begins(error(head + replaced(body, "3 0 1 2", "3 0 1 3"), as_ply),
                ":13:7: error: expected a vertex, a number from 0 to 2, found '3'"));
   CHECK(begins(error(head + replaced(body, "3 0 1 2", "3 0 1"), as_ply), ":13:6: error: the line of face 1 of 1 has too few values"));

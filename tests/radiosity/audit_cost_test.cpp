@@ -122,9 +122,9 @@ TEST_CASE("an audit that goes on narrows what was wide and shows targets that we
     const Points once = audited(kind, goal, seed + static_cast<std::uint64_t>(k)).result;
     goal.rays_if_wide = 200'000;
     const Points again = audited(kind, goal, seed + static_cast<std::uint64_t>(k)).result;
-    const bool was_wide = radiosity::detail::is_wide(*once.sums.estimate());
+    const bool was_wide = radiosity::is_wide(*once.sums.estimate());
     wide[0] += was_wide;
-    wide[1] += radiosity::detail::is_wide(*again.sums.estimate());
+    wide[1] += radiosity::is_wide(*again.sums.estimate());
     if (!was_wide) { CHECK(again.sums.square == once.sums.square); }
     goal = {500, 100'000};
     goal.wanted = 1.3 * off;
