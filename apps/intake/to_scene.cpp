@@ -226,13 +226,13 @@ class SceneMaker {
       if (views.lit_share(file_.cameras[i]) < LightViews::tol_dark) { dark.push_back("'" + file_.cameras[i].name + "'"); }
       if (file_.cameras[i].name == "inside") { return; }
     }
-    if (file_.cameras.empty() ? views.lit_share(radiosity::automatic_camera(file_.scene)) >= LightViews::tol_dark : dark.empty()) {
-      return;
-    }
+    const double from_outside = file_.cameras.empty() ? views.lit_share(radiosity::automatic_camera(file_.scene)) : 0.0;
+    if (from_outside >= LightViews::little_light || (!file_.cameras.empty() && dark.empty())) { return; }
     auto camera = views.inside();
-    if (!camera || views.lit_share(*camera) < LightViews::tol_dark) { camera.reset(); }
+    const double enough = from_outside < LightViews::tol_dark ? LightViews::tol_dark : LightViews::much_light;
+    if (!camera || views.lit_share(*camera) < enough) { camera.reset(); }
     if (file_.cameras.empty()) {
-      if (camera) { note("from outside next to nothing is seen of its light: the camera stands in the room of a lamp"); }
+      if (camera) { note("from outside little is seen of its light: the camera stands in the room of a lamp"); }
     } else {
       note((dark.size() == 1 ? "camera " + dark[0] + " sees" : counted(dark.size(), "camera") + " see") +
            " next to nothing that a lamp shines on" + (camera ? "; --camera inside stands in the room of a lamp" : ""));

@@ -99,6 +99,8 @@ HALFLIGHT_INLINE bool Emitters::even(const std::vector<Surface>& surfaces, const
 
 HALFLIGHT_INLINE Emitters::Emitters(const std::vector<Surface>& surfaces, const std::vector<Color>& emission) {
   if (even(surfaces, emission)) { return; }
+  shown_by_.assign(emission.size(), none);
+  node_of_.assign(emission.size(), none);
   for (const Surface& surface : surfaces) {
     std::vector<std::vector<Polygon>> curved(surface.object->sheet_count());  // faces, by sheet
     std::map<double, std::vector<Polygon>> bodies;                            // flat faces of an object that shine alike
@@ -118,6 +120,7 @@ HALFLIGHT_INLINE Emitters::Emitters(const std::vector<Surface>& surfaces, const 
       } else if (alike.at(sum) <= most_single_faces) {
         add_flat(surface.first_surface + sheet, polygon, sum);
       } else {
+        shown_by_[surface.first_surface + sheet] = surface.first_surface;
         bodies[sum].push_back(std::move(polygon));
       }
     }
@@ -135,7 +138,15 @@ HALFLIGHT_INLINE Emitters::Emitters(const std::vector<Surface>& surfaces, const 
   if (shapes_.empty()) { return; }
   nodes_.reserve(2 * shapes_.size());
   nodes_.emplace_back();
-  build(0, 0, static_cast<std::uint32_t>(shapes_.size()));
+  build(0, 0, static_cast<std::uint32_t>(shapes_.size()), true);
+}
+
+HALFLIGHT_INLINE void Emitters::guide(std::vector<PhotonGrid::Photon> photons, double diameter) {
+  for (PhotonGrid::Photon& photon : photons) {
+    if (shown_by_[photon.source] != none) { photon.source = shown_by_[photon.source]; }
+  }
+  std::erase_if(photons, [&](const PhotonGrid::Photon& photon) { return node_of_[photon.source] == none; });
+  photons_ = PhotonGrid{photons, diameter};
 }
 
 HALFLIGHT_INLINE void Emitters::add_flat(std::uint32_t surface, const Polygon& polygon, double exitance) {
@@ -205,7 +216,7 @@ HALFLIGHT_INLINE void Emitters::add_spheres(std::uint32_t surface, std::span<std
 }
 
 // Halves the shapes [first, last): between surfaces while there are several, then by place.
-HALFLIGHT_INLINE void Emitters::build(std::uint32_t index, std::uint32_t first, std::uint32_t last) {
+HALFLIGHT_INLINE void Emitters::build(std::uint32_t index, std::uint32_t first, std::uint32_t last, bool several_above) {
   Node node;
   const std::span<Shape> shapes = std::span{shapes_}.subspan(first, last - first);
   raycast::Box bounds, centres;
@@ -223,6 +234,10 @@ HALFLIGHT_INLINE void Emitters::build(std::uint32_t index, std::uint32_t first, 
   for (const Shape& shape : shapes) { node.radius = std::max(node.radius, glm::length(shape.centre - node.centre) + shape.radius); }
   node.leaf = shapes.size() == 1;
   node.first = first;
+  if (several_above && !node.several) {
+    node.surface = shapes[0].surface;
+    node_of_[node.surface] = index;
+  }
   if (!node.leaf) {
     const glm::dvec3 extent = centres.hi - centres.lo;
     const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
@@ -243,8 +258,8 @@ HALFLIGHT_INLINE void Emitters::build(std::uint32_t index, std::uint32_t first, 
     node.first = static_cast<std::uint32_t>(nodes_.size());
     nodes_.resize(nodes_.size() + 2);
     nodes_[index] = node;
-    build(node.first, first, half);
-    build(node.first + 1, half, last);
+    build(node.first, first, half, node.several);
+    build(node.first + 1, half, last, node.several);
     return;
   }
   nodes_[index] = node;
@@ -308,8 +323,10 @@ HALFLIGHT_INLINE double Emitters::density(const glm::dvec3& x, const glm::dvec3&
   std::array<Entry, 128> stack;  // the tree halves surfaces, then their shapes: 2 x 32 levels at most, two entries each
   std::size_t top = 0;
   double sum = 0.0;
-  const auto take = [&](std::uint32_t index, double probability) {
-    if (!(probability > 0.0)) { return; }
+  const Choice by{photons_.around(x, n)};
+  const auto take = [&](std::uint32_t index, double by_tree) {
+    const double probability = by.of(nodes_[index], by_tree);
+    if (!(by_tree > 0.0)) { return; }
     if (nodes_[index].leaf) {
       sum += probability * density_of(shapes_[nodes_[index].first], x, w, index == sampled);
     } else {

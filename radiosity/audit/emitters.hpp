@@ -10,6 +10,9 @@
 //   bodies of faces   many flat faces of one object that shine alike are taken like a curved emitter: a bulb of thousands of triangles
 //                     is one sphere.
 //
+// In a house most lamps are behind walls, whatever their power. So most choices go to an emitter by the photons of all emitters that landed
+// around x (photon_grid.hpp), and down the tree from there; the rest from its root, for photons may miss one that shines past an edge.
+//
 // The shapes only propose directions: what a direction carries is found by a ray. So a shape may be larger than what it stands for,
 // overlap others or be hidden, and every direction has a density() that can be computed, which the balance heuristic needs (Veach and
 // Guibas 1995).
@@ -35,6 +38,7 @@
 #include <raycast/transform.hpp>
 
 #include <radiosity/geometry/form_factor.hpp>
+#include <radiosity/geometry/photon_grid.hpp>
 #include <radiosity/hierarchy/surface.hpp>
 #include <radiosity/scene/material.hpp>
 #include <radiosity/support/random.hpp>
@@ -48,6 +52,9 @@ class Emitters {
   Emitters(const std::vector<Surface>& surfaces, const std::vector<Color>& emission);
 
   [[nodiscard]] bool empty() const { return nodes_.empty(); }
+
+  // From now on emitters are chosen by these, too; their sources are input surfaces that shine.
+  void guide(std::vector<PhotonGrid::Photon> photons, double diameter);
 
   struct Sample {
     glm::dvec3 direction{0.0};  // unit
@@ -91,13 +98,26 @@ class Emitters {
     std::uint32_t first = 0;  // its shape, or the first of its two children
     bool leaf = true;
     bool several = false;  // surfaces below
+    std::uint32_t surface = none;  // that all shapes below belong to, and none beside them
+  };
+
+  // How emitters are chosen at a point, from the root of the tree and by photons.
+  static constexpr double by_photons = 0.75;
+  struct Choice {
+    std::span<const PhotonGrid::Share> shares;  // empty: from the root alone
+    [[nodiscard]] double guided() const { return shares.empty() ? 0.0 : by_photons; }
+    // The probability to come to a node, when it is so much by the tree.
+    [[nodiscard]] double of(const Node& node, double by_tree) const {
+      if (node.surface == none || shares.empty()) { return by_tree; }
+      return (1.0 - by_photons) * by_tree + by_photons * PhotonGrid::share_of(shares, node.surface);
+    }
   };
 
   void add_flat(std::uint32_t surface, const Polygon& polygon, double exitance);
   void add_curved(std::uint32_t surface, const std::vector<Polygon>& faces, const raycast::PlacedObject& object, std::uint32_t sheet,
                   double exitance);
   void add_spheres(std::uint32_t surface, std::span<std::array<glm::dvec3, 3>> pieces, double bulge, double exitance);
-  void build(std::uint32_t node, std::uint32_t first, std::uint32_t last);
+  void build(std::uint32_t node, std::uint32_t first, std::uint32_t last, bool several_above);
   [[nodiscard]] double importance(const Node& node, const glm::dvec3& x, const glm::dvec3& n) const;
   [[nodiscard]] double first_share(const Node& node, const glm::dvec3& x, const glm::dvec3& n) const;
   // Does the line from x in the direction w come through the sphere around the shapes of this node?
@@ -110,6 +130,9 @@ class Emitters {
 
   std::vector<Shape> shapes_;
   std::vector<Node> nodes_;  // the root first
+  // By input surface: the one of its shapes, for those of a body have one; and the node of those of that one, if there are any.
+  std::vector<std::uint32_t> shown_by_, node_of_;
+  PhotonGrid photons_;
 };
 
 namespace detail {
@@ -126,6 +149,16 @@ std::optional<Emitters::Sample> Emitters::sample(const glm::dvec3& x, const glm:
   const double u = random.uniform();
   const double v = random.uniform();
   std::uint32_t index = 0;
+  const Choice by{photons_.around(x, n)};
+  if (choice < by.guided()) {
+    choice /= by.guided();
+    auto share = by.shares.begin();
+    for (; share + 1 != by.shares.end() && choice >= share->share; ++share) { choice -= share->share; }
+    choice = std::min(choice / share->share, 1.0 - 0x1p-53);
+    index = node_of_[share->source];
+  } else {
+    choice = (choice - by.guided()) / (1.0 - by.guided());
+  }
   while (!nodes_[index].leaf) {
     const Node& node = nodes_[index];
     const double share = first_share(node, x, n);

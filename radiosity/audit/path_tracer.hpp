@@ -33,6 +33,7 @@
 #include <raycast/transform.hpp>
 
 #include <radiosity/audit/emitters.hpp>
+#include <radiosity/direct/lamp_photons.hpp>
 #include <radiosity/hierarchy/surface.hpp>
 #include <radiosity/scene/material.hpp>
 #include <radiosity/scene/scene.hpp>
@@ -56,6 +57,13 @@ class PathTracer {
     }
     for (const Surface& surface : surfaces) { first_surface_.push_back(surface.first_surface); }
     emitters_ = Emitters{surfaces, emission};
+    if (emitters_.empty()) { return; }
+    const auto meet = [&](const raycast::SurfacePoint& from, const glm::dvec3& direction, std::uint32_t object, std::uint32_t sheet) {
+      std::uint64_t rays = 0;
+      const auto hit = first_front(from.position, direction, object, sheet, rays);
+      return hit ? std::optional{at(*hit, from.position, direction)} : std::nullopt;
+    };
+    emitters_.guide(lamp_photons(surfaces, emission, meet), objects.diameter());
   }
 
   // Largest reflectance of the scene.
@@ -114,8 +122,7 @@ class PathTracer {
         arrives(throughput * emission(*hit) * balance(emitters_.density(x, n, onwards), glm::dot(n, onwards)));
         count_emitters(x, n, onwards, rays);
       }
-      const raycast::SurfacePoint point =
-          objects_->object(hit->object).project(hit->sheet, raycast::Segment{x, onwards * objects_->diameter()}.at(hit->t));
+      const raycast::SurfacePoint point = at(*hit, x, onwards);
       x = point.position;
       n = point.normal;
       object = hit->object;
@@ -126,6 +133,10 @@ class PathTracer {
   }
 
  private:
+  // The place that a ray has met.
+  [[nodiscard]] raycast::SurfacePoint at(const raycast::Hit& hit, const glm::dvec3& from, const glm::dvec3& direction) const {
+    return objects_->object(hit.object).project(hit.sheet, raycast::Segment{from, direction * objects_->diameter()}.at(hit.t));
+  }
   [[nodiscard]] const Color& emission(const raycast::Hit& hit) const { return materials_[surface(hit.object, hit.sheet)].emission; }
 
   // What the ray from x, on a sheet of `object`, meets, if that shows its front.

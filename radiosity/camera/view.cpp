@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <iterator>
 #include <numbers>
+#include <vector>
 
 #include <glm/geometric.hpp>
 
@@ -55,14 +57,43 @@ HALFLIGHT_INLINE View make_view(const Camera& camera, const PictureSize& size) {
 
 namespace detail {
 
-// All of the scene; but a lamp far outside, as a sky behind windows, is not shown when it would make all else less than half as large.
+// All of the scene; but no lamp far outside, as a sky behind windows, when it would make all else less than half as large, and no flat
+// ground, or ground with a sky around it, more than three times as wide as what stands on it.
 HALFLIGHT_INLINE raycast::Box worth_seeing(const Scene& scene) {
+  struct Thing {
+    raycast::Box box;
+    bool around = false;  // a ground, or with a part that shines
+  };
   const auto shines = [&](std::uint32_t material) { return !is_black(scene.materials[material].emission); };
-  Scene things;
-  std::copy_if(scene.objects.begin(), scene.objects.end(), std::back_inserter(things.objects),
-               [&](const SceneObject& object) { return !std::all_of(object.material.begin(), object.material.end(), shines); });
-  const raycast::Box all = scene_bounds(scene), rest = scene_bounds(things);
-  return !things.objects.empty() && all.diameter() > 2.0 * rest.diameter() ? rest : all;
+  const auto add = [](raycast::Box& to, const raycast::Box& box) {
+    to.extend(box.lo);
+    to.extend(box.hi);
+  };
+  const auto flat = [](const raycast::Box& box) {
+    constexpr double thin = 1e-6;
+    return std::min({box.size().x, box.size().y, box.size().z}) < thin * box.diameter();
+  };
+  std::vector<Thing> things;
+  raycast::Box rest;
+  for (const SceneObject& object : scene.objects) {
+    if (std::all_of(object.material.begin(), object.material.end(), shines)) { continue; }
+    const raycast::Box box = placed_bounds(*object.shape, object.placement);
+    things.push_back({box, flat(box) || std::any_of(object.material.begin(), object.material.end(), shines)});
+    add(rest, box);
+  }
+  std::stable_sort(things.begin(), things.end(), [](const Thing& a, const Thing& b) { return a.box.diameter() < b.box.diameter(); });
+  raycast::Box inner;
+  for (auto thing = things.begin(); thing != things.end(); ++thing) {
+    const bool all_around =
+        std::all_of(thing, things.end(), [&](const Thing& t) { return t.around && t.box.diameter() > 3.0 * inner.diameter(); });
+    if (all_around && !inner.empty() && !flat(inner)) {
+      rest = inner;
+      break;
+    }
+    add(inner, thing->box);
+  }
+  const raycast::Box all = scene_bounds(scene);
+  return !things.empty() && all.diameter() > 2.0 * rest.diameter() ? rest : all;
 }
 
 }  // namespace detail

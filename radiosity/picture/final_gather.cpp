@@ -26,7 +26,9 @@
 #include <raycast/transform.hpp>
 
 #include <radiosity/direct/direct_light.hpp>
+#include <radiosity/direct/lamp_photons.hpp>
 #include <radiosity/direct/lit_region.hpp>
+#include <radiosity/geometry/photon_grid.hpp>
 #include <radiosity/hierarchy/surface.hpp>
 #include <radiosity/hierarchy/twins.hpp>
 #include <radiosity/picture/lookup.hpp>
@@ -41,7 +43,7 @@
 namespace radiosity {
 
 HALFLIGHT_INLINE FinalGather::FinalGather(const Scene& scene, const Mesh& mesh, const Frame& frame)
-    : lookup_{scene, mesh, frame}, near_{lookup_, direct_, materials_} {
+    : lookup_{scene, mesh, frame}, near_{lookup_, direct_, materials_, lamp_photons_} {
   std::vector<Color> emission;
   for (const InputSurface& input : surfaces(scene)) {
     materials_.push_back(scene.materials[input.material]);
@@ -55,6 +57,7 @@ HALFLIGHT_INLINE FinalGather::FinalGather(const Scene& scene, const Mesh& mesh, 
   }
   lookup_.leave_out(copies(boundaries));
   direct_ = DirectLight{objects(), boundaries, emission, {.bodies = true}};
+  lamp_photons_ = send_lamp_photons(boundaries, emission);
   for (std::uint32_t s = 0; s < emission.size(); ++s) {
     if (!direct_.is_lamp(s) && !is_black(materials_[s].reflectance)) { emission[s] = Color{0.0}; }
   }
@@ -64,6 +67,25 @@ HALFLIGHT_INLINE FinalGather::FinalGather(const Scene& scene, const Mesh& mesh, 
     const auto corners = std::span(mesh.corners).subspan(face.first_corner, face.corner_count);
     return std::all_of(corners.begin(), corners.end(), [&](const MeshCorner& corner) { return corner.radiosity == lamp; });
   });
+}
+
+HALFLIGHT_INLINE PhotonGrid FinalGather::send_lamp_photons(const std::vector<Surface>& boundaries, std::vector<Color> emission) const {
+  if (direct_.lamps().size() < 2) { return {}; }
+  for (std::uint32_t s = 0; s < emission.size(); ++s) {
+    if (!direct_.is_lamp(s)) { emission[s] = Color{0.0}; }
+  }
+  const auto meet = [&](const raycast::SurfacePoint& from, const glm::dvec3& direction, std::uint32_t object,
+                        std::uint32_t sheet) -> std::optional<raycast::SurfacePoint> {
+    const double lift = direct_.lift(object);
+    const raycast::Segment ray{from.position + lift * from.normal, direction * objects().diameter()};
+    const auto hit = direct_.objects().closest(ray, lift > 0.0 ? raycast::no_object : object, sheet);
+    return hit && hit->front ? std::optional{met(*hit, ray).point} : std::nullopt;
+  };
+  std::vector<PhotonGrid::Photon> photons = lamp_photons(boundaries, emission, meet);
+  for (PhotonGrid::Photon& photon : photons) {
+    photon.source = static_cast<std::uint32_t>(direct_.lamp_of(photon.source) - direct_.lamps().data());
+  }
+  return {photons, objects().diameter()};
 }
 
 HALFLIGHT_INLINE FinalGather::Eye FinalGather::eye(const glm::dvec3& in_scene) const {

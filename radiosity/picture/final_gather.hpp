@@ -24,6 +24,8 @@
 
 #include <radiosity/direct/direct_light.hpp>
 #include <radiosity/direct/lit_region.hpp>
+#include <radiosity/geometry/photon_grid.hpp>
+#include <radiosity/hierarchy/surface.hpp>
 #include <radiosity/picture/bright_spots.hpp>
 #include <radiosity/picture/lookup.hpp>
 #include <radiosity/picture/met.hpp>
@@ -130,6 +132,8 @@ class FinalGather {
   // Returns the variance that this adds.
   [[nodiscard]] double mend_near(Sum& sum, const Place& place, double all, std::uint32_t rays, double most_paths, double error,
                                  std::uint64_t key) const;
+  // Photons of the lamps, where these are several; their sources are lamps of the direct light.
+  [[nodiscard]] PhotonGrid send_lamp_photons(const std::vector<Surface>& boundaries, std::vector<Color> emission) const;
   // The sum of the channels that the place reflects: the solution knows of no others there.
   [[nodiscard]] double of_reflected_channels(const Place& place, const Color& light) const;
   // That of the irradiance that the solution shows there, W/m2.
@@ -138,6 +142,7 @@ class FinalGather {
   Lookup lookup_;
   std::vector<Material> materials_;  // of the input surfaces
   DirectLight direct_;
+  PhotonGrid lamp_photons_;
   BrightSpots spots_;
   NearLight near_;
   bool direct_alone_ = false;

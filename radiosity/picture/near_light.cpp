@@ -24,6 +24,7 @@
 
 #include <radiosity/direct/direct_light.hpp>
 #include <radiosity/direct/lamp_samples.hpp>
+#include <radiosity/geometry/photon_grid.hpp>
 #include <radiosity/picture/bright_spots.hpp>
 #include <radiosity/picture/lookup.hpp>
 #include <radiosity/picture/met.hpp>
@@ -55,30 +56,53 @@ namespace detail {
   return (lamp.exitance.x + lamp.exitance.y + lamp.exitance.z) * size / std::max(glm::dot(d, d), size);
 }
 
-[[nodiscard]] HALFLIGHT_INLINE double strength_of_all(const DirectLight& direct, const raycast::SurfacePoint& at) {
-  double all = 0.0;
-  for (const DirectLight::Lamp& lamp : direct.lamps()) { all += strength(lamp, at); }
-  return all;
-}
-
 struct ChosenLamp {
   const DirectLight::Lamp* lamp = nullptr;
   double probability = 0.0;
 };
 
-[[nodiscard]] HALFLIGHT_INLINE ChosenLamp choose_lamp(const DirectLight& direct, const raycast::SurfacePoint& at, double number) {
-  const double all = strength_of_all(direct, at);
-  ChosenLamp chosen;
-  double left = number * all;
-  for (const DirectLight::Lamp& lamp : direct.lamps()) {
-    const double own = strength(lamp, at);
-    if (!(own > 0.0)) { continue; }
-    chosen = {&lamp, own / all};
-    left -= own;
-    if (left < 0.0) { break; }
+// How a lamp is chosen at a place: mostly by the photons that have landed there, else by its strength. The strength alone would choose lamps
+// behind walls, the photons alone might miss one that shines past an edge.
+class LampChoice {
+ public:
+  LampChoice(const DirectLight& direct, const PhotonGrid& photons, const raycast::SurfacePoint& at)
+      : lamps_{direct.lamps()}, at_{&at}, by_photons_{photons.around(at.position, at.normal)}, guided_{by_photons_.empty() ? 0.0 : 0.875} {
+    for (const DirectLight::Lamp& lamp : lamps_) { strength_ += strength(lamp, at); }
   }
-  return chosen;
-}
+
+  [[nodiscard]] ChosenLamp of(const DirectLight::Lamp& lamp) const {
+    const double by_strength = strength_ > 0.0 ? strength(lamp, *at_) / strength_ : 0.0;
+    const auto index = static_cast<std::uint32_t>(&lamp - lamps_.data());
+    return {&lamp, (1.0 - guided_) * by_strength + guided_ * PhotonGrid::share_of(by_photons_, index)};
+  }
+
+  // By a number in (0, 1).
+  [[nodiscard]] ChosenLamp choose(double number) const {
+    if (number < guided_) {
+      double left = number / guided_;
+      auto share = by_photons_.begin();
+      while ((left -= share->share) >= 0.0 && share + 1 != by_photons_.end()) { ++share; }
+      return of(lamps_[share->source]);
+    }
+    double left = (number - guided_) / (1.0 - guided_) * strength_;
+    const DirectLight::Lamp* chosen = nullptr;
+    for (const DirectLight::Lamp& lamp : lamps_) {
+      const double own = strength(lamp, *at_);
+      if (!(own > 0.0)) { continue; }
+      chosen = &lamp;
+      left -= own;
+      if (left < 0.0) { break; }
+    }
+    return chosen != nullptr ? of(*chosen) : ChosenLamp{};
+  }
+
+ private:
+  std::span<const DirectLight::Lamp> lamps_;
+  const raycast::SurfacePoint* at_;
+  std::span<const PhotonGrid::Share> by_photons_;
+  double guided_;          // the share of choices by photons
+  double strength_ = 0.0;  // of all
+};
 
 // The probability that an even ray from a place ends here on the lamp, in that of this point being chosen, all points of the lamp alike.
 [[nodiscard]] HALFLIGHT_INLINE double ray_to_chosen(const ChosenLamp& chosen, const raycast::SurfacePoint& place, const glm::dvec3& end,
@@ -90,11 +114,11 @@ struct ChosenLamp {
 }
 
 // What counts of the light of a lamp that an even ray from a place has met; the rest is that of chosen points (balance heuristic).
-[[nodiscard]] HALFLIGHT_INLINE double share_of_ray(const DirectLight& direct, const DirectLight::Lamp& lamp,
+[[nodiscard]] HALFLIGHT_INLINE double share_of_ray(const LampChoice& choice, const DirectLight::Lamp& lamp,
                                                    const raycast::SurfacePoint& place, const raycast::SurfacePoint& end) {
-  const double own = strength(lamp, place);
-  if (!(own > 0.0)) { return 1.0; }
-  const double ratio = ray_to_chosen({&lamp, own / strength_of_all(direct, place)}, place, end.position, end.normal);
+  const ChosenLamp chosen = choice.of(lamp);
+  if (!(chosen.probability > 0.0)) { return 1.0; }
+  const double ratio = ray_to_chosen(chosen, place, end.position, end.normal);
   return ratio / (1.0 + ratio);
 }
 
@@ -104,15 +128,21 @@ HALFLIGHT_INLINE void NearLight::light_by_lamps(Paths& paths, std::span<PathNumb
   constexpr double off_surface = 1e-5;  // more than single precision's error, in a scene of size 1 to 2
   raycast::Segments16 segments;
   std::array<Color, paths_at_once> arriving{};
-  // Samples of a lamp that stand in a row are even over it.
-  const double row = numbers[0].uniform();
+  // Samples of a lamp that stand in a row are even over it, and so are the lamps that paths choose.
+  const double row = numbers[0].uniform(), turn = numbers[0].uniform();
+  std::array<detail::ChosenLamp, paths_at_once> choices;
+  paths.each([&](unsigned k) {
+    const double number = std::fmod(turn + static_cast<double>(k) / paths_at_once, 1.0);
+    choices[k] = detail::LampChoice{*direct_, *lamp_photons_, paths.end[k].point}.choose(number);
+  });
   paths.each([&](unsigned k) {
     const auto& [at, object, sheet] = paths.end[k];
-    const detail::ChosenLamp chosen = detail::choose_lamp(*direct_, at, numbers[k].uniform());
+    const detail::ChosenLamp& chosen = choices[k];
     if (chosen.lamp == nullptr) { return; }
     const std::vector<LampSample>& samples = chosen.lamp->samples;
     const std::size_t first = paths_at_once * static_cast<std::size_t>(row * static_cast<double>(samples.size() / paths_at_once));
-    const LampSample& sample = samples[(first + k) % samples.size()];
+    const auto before = std::count_if(choices.begin(), choices.begin() + k, [&](const auto& c) { return c.lamp == chosen.lamp; });
+    const LampSample& sample = samples[(first + static_cast<std::size_t>(before)) % samples.size()];
     const double ratio = detail::ray_to_chosen(chosen, at, sample.position, sample.normal);
     if (!(ratio > 0.0)) { return; }
     arriving[k] = chosen.lamp->exitance * (ratio / (1.0 + ratio));
@@ -185,7 +215,8 @@ HALFLIGHT_INLINE void NearLight::go_on(Paths& paths, std::span<PathNumbers> numb
     const DirectLight::Lamp* met_lamp = direct_->lamp_of(surface);
     const Color lamp = met_lamp != nullptr ? material.emission : Color{0.0};
     if (met_lamp != nullptr) {
-      paths.light[k] += paths.carried[k] * lamp * detail::share_of_ray(*direct_, *met_lamp, paths.end[k].point, next.point);
+      const detail::LampChoice choice{*direct_, *lamp_photons_, paths.end[k].point};
+      paths.light[k] += paths.carried[k] * lamp * detail::share_of_ray(choice, *met_lamp, paths.end[k].point, next.point);
     }
     const std::optional<Lookup::Found> found = lookup_->find(next.object, next.sheet, next.point);
     if (found && !last && hit.t * reach < found->coarse_within) {

@@ -9,6 +9,8 @@
 // A path that ends by chance on a small bright spot is noise: a row of bright and dark crumbs along a corner. Where spots are that bright,
 // each end of a path sends a ray to one of them, too (bright_spots.hpp), by the balance heuristic.
 //
+// Lamps are chosen by the light that arrives from them around the place (photon_grid.hpp): of a house most are in other rooms.
+//
 // A path that ends on a lamp by chance counts beside a point of the lamp that was chosen, by the same heuristic: a large lamp near by, such
 // as a sky outside a window, is seen where chosen points are few.
 //
@@ -19,6 +21,7 @@
 #include <vector>
 
 #include <radiosity/direct/direct_light.hpp>
+#include <radiosity/geometry/photon_grid.hpp>
 #include <radiosity/picture/bright_spots.hpp>
 #include <radiosity/picture/lookup.hpp>
 #include <radiosity/picture/met.hpp>
@@ -29,9 +32,9 @@ namespace radiosity {
 
 class NearLight {
  public:
-  // All must outlive this; `materials`: of the input surfaces.
-  NearLight(const Lookup& lookup, const DirectLight& direct, const std::vector<Material>& materials)
-      : lookup_{&lookup}, direct_{&direct}, materials_{&materials} {}
+  // All must outlive this; `materials`: of the input surfaces; `lamp_photons`: their sources are lamps of the direct light.
+  NearLight(const Lookup& lookup, const DirectLight& direct, const std::vector<Material>& materials, const PhotonGrid& lamp_photons)
+      : lookup_{&lookup}, direct_{&direct}, materials_{&materials}, lamp_photons_{&lamp_photons} {}
 
   // A place that is seen from so near that the mesh is too coarse for its light, and this light, without that of lamps.
   struct Seen {
@@ -60,6 +63,7 @@ class NearLight {
   const Lookup* lookup_;
   const DirectLight* direct_;
   const std::vector<Material>* materials_;
+  const PhotonGrid* lamp_photons_;
 };
 
 }  // namespace radiosity

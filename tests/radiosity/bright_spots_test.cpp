@@ -263,7 +263,8 @@ TEST_CASE("paths of near light find bright spots without bias, and with less noi
   const radiosity::DirectLight direct{lookup.objects(), scenes::boundaries(lookup.objects()), emission};
   const radiosity::BrightSpots spots{lookup, direct, emission};
   REQUIRE_FALSE(spots.empty());
-  const radiosity::NearLight near{lookup, direct, materials};
+  const radiosity::PhotonGrid no_photons;
+  const radiosity::NearLight near{lookup, direct, materials, no_photons};
   const glm::dvec3 x{0.3, -0.2, 0.0};
   const radiosity::NearLight::Seen seen{{{(x - solution.frame.centre) * solution.frame.scale, {0, 0, 1}}, 0, 0}, radiosity::Color{1.0}};
   const radiosity::BrightSpots::From from{spots, seen.at.point.position};

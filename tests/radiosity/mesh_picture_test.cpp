@@ -274,7 +274,7 @@ TEST_CASE("the automatic view shows the whole scene") {
   }
 }
 
-TEST_CASE("the automatic view shows a lamp near the things it lights, and the same as without one that is far away") {
+TEST_CASE("the automatic view shows a lamp near the things it lights, and the same as without one far away, or a wide ground") {
   const unsigned seed = std::random_device{}();
   CAPTURE(seed);
   std::mt19937 random(seed);
@@ -292,6 +292,14 @@ TEST_CASE("the automatic view shows a lamp near the things it lights, and the sa
       return radiosity::automatic_camera(scene_of(all));
     };
     CHECK(with_lamp(within(60, 1000)).eye == alone.eye);
+    std::vector<radiosity::SceneObject> on_ground = things;
+    on_ground.push_back(scenes::square("ground", {0, 0, -5}, within(40, 10'000), true));
+    CHECK(radiosity::automatic_camera(scene_of(on_ground)).eye == alone.eye);
+    // A sky that is one object with its ground.
+    const double half = within(40, 10'000);
+    on_ground.back() = scenes::object("sky", scenes::box({-half, -half, -5}, {half, half, half}), lamp, true);
+    on_ground.back().material = {lamp, lamp, lamp, lamp, wall, lamp};
+    CHECK(radiosity::automatic_camera(scene_of(on_ground)).eye == alone.eye);
     const radiosity::View near = radiosity::make_view(with_lamp(6.0), {});
     CHECK(std::abs(near.to_view({0, 0, 7}).y) < near.half_height() * near.to_view({0, 0, 7}).z);
   }

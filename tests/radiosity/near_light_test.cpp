@@ -11,6 +11,7 @@
 
 #include <radiosity/direct/direct_light.hpp>
 #include <radiosity/geometry/form_factor.hpp>
+#include <radiosity/geometry/photon_grid.hpp>
 #include <radiosity/picture/lookup.hpp>
 #include <radiosity/picture/near_light.hpp>
 #include <radiosity/radiosity.hpp>
@@ -41,7 +42,8 @@ TEST_CASE("near places are lit by a lamp of any size at any distance as its form
   const radiosity::DirectLight direct{
       lookup.objects(), scenes::boundaries(lookup.objects()), {radiosity::Color{0.0}, radiosity::Color{1.0}}};
   REQUIRE(direct.is_lamp(1));
-  const radiosity::NearLight near{lookup, direct, scene.materials};
+  const radiosity::PhotonGrid no_photons;
+  const radiosity::NearLight near{lookup, direct, scene.materials, no_photons};
   const radiosity::NearLight::Seen seen{{{(x - solution.frame.centre) * solution.frame.scale, {0, 0, 1}}, 0, 0}, radiosity::Color{1.0}};
   constexpr int families = 256;
   double sum = 0.0, squares = 0.0;

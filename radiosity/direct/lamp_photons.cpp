@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+#include <radiosity/direct/lamp_photons.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+#include <brep/circulators.hpp>
+#include <brep/handles.hpp>
+
+#include <raycast/inline.hpp>
+#include <raycast/object.hpp>
+
+#include <radiosity/geometry/form_factor.hpp>
+#include <radiosity/geometry/photon_grid.hpp>
+#include <radiosity/hierarchy/surface.hpp>
+#include <radiosity/scene/material.hpp>
+#include <radiosity/support/random.hpp>
+#include <radiosity/support/sobol.hpp>
+
+namespace radiosity {
+
+namespace detail {
+
+// A triangle of a surface that shines.
+struct ShiningTriangle {
+  std::array<glm::dvec3, 3> corner;
+  const Surface* of = nullptr;
+  std::uint32_t object = 0, sheet = 0;
+  double power = 0.0, until = 0.0;  // `until`: the probability of it and of those before it
+};
+
+[[nodiscard]] HALFLIGHT_INLINE std::vector<ShiningTriangle> shining_triangles(const std::vector<Surface>& surfaces,
+                                                                              const std::vector<Color>& emission) {
+  std::vector<ShiningTriangle> triangles;
+  for (std::uint32_t o = 0; o < surfaces.size(); ++o) {
+    const Surface& surface = surfaces[o];
+    for (const brep::FaceId f : brep::faces(surface.brep)) {
+      const std::uint32_t sheet = surface.brep.data(f).sheet;
+      if (sheet == brep::no_sheet) { continue; }
+      const Color& exitance = emission[surface.first_surface + sheet];
+      if (is_black(exitance)) { continue; }
+      const Polygon polygon = corner_polygon(surface.brep, f);
+      for (std::size_t i = 1; i + 1 < polygon.size(); ++i) {
+        ShiningTriangle triangle{{polygon[0], polygon[i], polygon[i + 1]}, &surface, o, sheet};
+        const auto& [a, b, c] = triangle.corner;
+        triangle.power = 0.5 * glm::length(glm::cross(b - a, c - a)) * (exitance.x + exitance.y + exitance.z);
+        if (triangle.power > 0.0) { triangles.push_back(triangle); }
+      }
+    }
+  }
+  return triangles;
+}
+
+}  // namespace detail
+
+HALFLIGHT_INLINE std::vector<PhotonGrid::Photon> lamp_photons(const std::vector<Surface>& surfaces, const std::vector<Color>& emission,
+                                                              const MeetFront& meet) {
+  constexpr std::size_t of_a_lamp = 512, least = 1u << 13, most = 1u << 15;
+  std::vector<detail::ShiningTriangle> triangles = detail::shining_triangles(surfaces, emission);
+  const auto source = [](const detail::ShiningTriangle& triangle) { return triangle.of->first_surface + triangle.sheet; };
+  std::map<std::uint32_t, double> power_of;
+  double all = 0.0;
+  for (const detail::ShiningTriangle& triangle : triangles) {
+    power_of[source(triangle)] += triangle.power;
+    all += triangle.power;
+  }
+  if (power_of.size() < 2) { return {}; }
+  const auto probability = [&](const detail::ShiningTriangle& triangle) {
+    return 0.5 * triangle.power / all + 0.5 * triangle.power / power_of[source(triangle)] / static_cast<double>(power_of.size());
+  };
+  double until = 0.0;
+  for (detail::ShiningTriangle& triangle : triangles) { triangle.until = until += probability(triangle); }
+  const auto count = static_cast<std::uint32_t>(std::clamp(of_a_lamp * power_of.size(), least, most));
+  const Sobol4 sequence{8};
+  std::vector<PhotonGrid::Photon> photons;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const std::array<double, 4> u = sequence(i);
+    const double at = u[0] * until;
+    const auto& triangle = *std::upper_bound(triangles.begin(), triangles.end() - 1, at,
+                                             [](double value, const detail::ShiningTriangle& t) { return value < t.until; });
+    const double own = probability(triangle);
+    const double root = std::sqrt(std::clamp((triangle.until - at) / own, 0.0, 1.0));
+    const auto& [a, b, c] = triangle.corner;
+    const glm::dvec3 chord = (1.0 - root) * a + root * (1.0 - u[3]) * b + root * u[3] * c;
+    const raycast::SurfacePoint from = triangle.of->object->project(triangle.sheet, chord);
+    const auto landed = meet(from, cosine_direction(from.normal, u[1], u[2]), triangle.object, triangle.sheet);
+    if (landed) { photons.push_back({landed->position, landed->normal, source(triangle)}); }
+  }
+  return photons;
+}
+
+}  // namespace radiosity

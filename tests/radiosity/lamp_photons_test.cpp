@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: MIT
+
+// Photons tell which lamps light a place, so that those of other rooms add no noise to what is found there.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <random>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+#include <raycast/object.hpp>
+#include <raycast/ray.hpp>
+#include <raycast/scene.hpp>
+
+#include <radiosity/audit/path_tracer.hpp>
+#include <radiosity/direct/direct_light.hpp>
+#include <radiosity/direct/lamp_photons.hpp>
+#include <radiosity/geometry/photon_grid.hpp>
+#include <radiosity/hierarchy/surface.hpp>
+#include <radiosity/picture/lookup.hpp>
+#include <radiosity/picture/near_light.hpp>
+#include <radiosity/radiosity.hpp>
+#include <radiosity/scene/material.hpp>
+#include <radiosity/scene/scene.hpp>
+#include <radiosity/support/random.hpp>
+#include <radiosity/visibility/prepare.hpp>
+
+#include "catch.hpp"
+#include "scenes.hpp"
+#include "solved.hpp"
+
+namespace {
+
+using radiosity::PhotonGrid;
+
+// A hall that walls divide into rooms, each 3 m wide with a lamp under its ceiling; that of the first is dim.
+radiosity::Scene row_of_rooms(int count, double others) {
+  using radiosity::Color;
+  radiosity::Scene scene;
+  scene.materials = {{"wall", Color{0.5}, Color{0.0}}, {"dim", Color{0.0}, Color{1.0}}, {"bright", Color{0.0}, Color{others}}};
+  scene.objects.push_back(scenes::object("hall", scenes::box({0, 0, 0}, {3.2 * count - 0.2, 3, 2.5}), 0, true));
+  for (int k = 0; k < count; ++k) {
+    const double x = 3.2 * k;
+    if (k > 0) { scene.objects.push_back(scenes::object("wall" + std::to_string(k), scenes::box({x - 0.2, 0, 0}, {x, 3, 2.5}), 0)); }
+    scene.objects.push_back(scenes::square("lamp" + std::to_string(k), {x + 1.5, 1.5, 2.4}, 0.2, false, k == 0 ? 1 : 2));
+  }
+  return scene;
+}
+
+radiosity::MeetFront met_among(const raycast::Scene& objects) {
+  return [&](const raycast::SurfacePoint& from, const glm::dvec3& direction, std::uint32_t object,
+             std::uint32_t sheet) -> std::optional<raycast::SurfacePoint> {
+    const raycast::Segment ray{from.position, direction * objects.diameter()};
+    const auto hit = objects.closest(ray, object, sheet);
+    return hit && hit->front ? std::optional{objects.object(hit->object).project(hit->sheet, ray.at(hit->t))} : std::nullopt;
+  };
+}
+
+struct Spread {
+  double mean = 0.0, deviation = 0.0, error = 0.0;  // error: of the mean
+};
+template <class Value>
+Spread spread_of(int count, const Value& value) {
+  double sum = 0.0, squares = 0.0;
+  for (int k = 0; k < count; ++k) {
+    const double v = value(static_cast<std::uint64_t>(k));
+    sum += v / count;
+    squares += v * v / count;
+  }
+  const double deviation = std::sqrt(std::max(0.0, squares - sum * sum));
+  return {sum, deviation, deviation / std::sqrt(count - 1.0)};
+}
+
+}  // namespace
+
+TEST_CASE("photons that landed around a place tell where its light comes from, in any order, and on the same side alone") {
+  const auto seed = std::random_device{}();
+  INFO("seed " << seed);
+  radiosity::Random random{seed, 0};
+  // Two sheets that lie in each other: the upper side is lit by sources 0 and 1, from left to right more by 1; the lower one by 2.
+  std::vector<PhotonGrid::Photon> photons;
+  for (int i = 0; i < 40'000; ++i) {
+    const glm::dvec3 p{random.uniform(), random.uniform(), 0.0};
+    photons.push_back({p, {0, 0, 1}, random.uniform() < p.x ? 1u : 0u});
+    photons.push_back({p, {0, 0, -1}, 2});
+  }
+  const double diameter = std::sqrt(2.0);
+  const PhotonGrid grid{photons, diameter};
+  std::reverse(photons.begin(), photons.end());
+  const PhotonGrid again{photons, diameter};
+  for (int i = 0; i < 200; ++i) {
+    const glm::dvec3 p{0.1 + 0.8 * random.uniform(), 0.1 + 0.8 * random.uniform(), 0.0};
+    CAPTURE(p.x, p.y);
+    const auto above = grid.around(p, {0, 0, 1}), below = grid.around(p, {0, 0, -1});
+    REQUIRE_FALSE(above.empty());
+    CHECK(PhotonGrid::share_of(above, 0) + PhotonGrid::share_of(above, 1) == test::Approx(1.0));
+    // Cells are .022 to .18 wide; of the first ones some 20 photons tell, with a standard deviation of .11 at most.
+    CHECK(std::abs(PhotonGrid::share_of(above, 1) - p.x) < 0.6);
+    REQUIRE(below.size() == 1);
+    CHECK(PhotonGrid::share_of(below, 2) == test::Approx(1.0));
+    CHECK(PhotonGrid::share_of(below, 0) == 0.0);
+    const auto other = again.around(p, {0, 0, 1});
+    for (const std::uint32_t k : {0u, 1u}) { CHECK(PhotonGrid::share_of(other, k) == test::Approx(PhotonGrid::share_of(above, k))); }
+  }
+  // On the whole they say what is true.
+  double off = 0.0;
+  for (int i = 0; i < 200; ++i) {
+    const glm::dvec3 p{0.1 + 0.8 * random.uniform(), 0.1 + 0.8 * random.uniform(), 0.0};
+    off += (PhotonGrid::share_of(grid.around(p, {0, 0, 1}), 1) - p.x) / 200.0;
+  }
+  CHECK(std::abs(off) < 0.05);
+  CHECK(grid.around({0.5, 0.5, 0.0}, {1, 0, 0}).empty());
+  CHECK(grid.around({9.0, 9.0, 9.0}, {0, 0, 1}).empty());
+  CHECK(PhotonGrid{std::span{photons}.first(8), diameter}.around(photons.front().position, photons.front().normal).empty());
+}
+
+TEST_CASE("path tracing: the lamps of other rooms, however bright, add next to no noise, and no light") {
+  const auto seed = static_cast<std::uint64_t>(GENERATE(take(3, random(1, 1'000'000))));
+  radiosity::Random random{seed, 0};
+  const glm::dvec3 x{0.3 + 2.4 * random.uniform(), 0.3 + 2.4 * random.uniform(), 0.0};
+  const double others = 3.0 * std::pow(30.0, random.uniform());
+  CAPTURE(seed, x.x, x.y, others);
+  Spread found[2];
+  for (const bool many : {false, true}) {
+    const radiosity::Scene scene = row_of_rooms(many ? 9 : 1, others);
+    const auto prepared = radiosity::prepare(scene);
+    REQUIRE(prepared.prepared);
+    const radiosity::Prepared& p = *prepared.prepared;
+    const radiosity::PathTracer tracer{scene, p.objects, p.surfaces};
+    found[many] = spread_of(20'000, [&](std::uint64_t k) {
+      radiosity::Random numbers{seed, k, many};
+      std::uint64_t rays = 0;
+      return tracer.radiosity((x - p.frame.centre) * p.frame.scale, {0, 0, 1}, 0, 4, numbers, rays).all.x;
+    });
+  }
+  CAPTURE(found[0].mean, found[1].mean, found[0].deviation, found[1].deviation);
+  CHECK(std::abs(found[0].mean - found[1].mean) < 5.0 * std::hypot(found[0].error, found[1].error));
+  // An emitter that is chosen three times out of four adds a variance of a third of the square of its light.
+  CHECK(found[1].deviation < std::hypot(found[0].deviation, 0.8 * found[0].mean));
+}
+
+// The light that the ceiling sends back, by paths of near light. What the solutions of both scenes say of the rest differs.
+TEST_CASE("near light: the lamps of other rooms, however bright, add next to no noise", "[picture]") {
+  const auto seed = static_cast<std::uint64_t>(GENERATE(take(3, random(1, 1'000'000))));
+  radiosity::Random random{seed, 0};
+  const glm::dvec3 x{0.3 * random.uniform(), 0.3 + 2.4 * random.uniform(), 0.0};
+  const double others = 3.0 * std::pow(30.0, random.uniform());
+  CAPTURE(seed, x.x, x.y, others);
+  Spread found[2];
+  for (const bool many : {false, true}) {
+    const radiosity::Scene scene = row_of_rooms(many ? 9 : 1, others);
+    radiosity::Options options;
+    options.audit_points = 0;
+    const radiosity::Solution solution = scenes::solved(scene, options);
+    const radiosity::Lookup lookup{scene, solution.mesh, solution.frame};
+    std::vector<radiosity::Material> materials;
+    std::vector<radiosity::Color> emission;
+    for (const radiosity::InputSurface& input : radiosity::surfaces(scene)) {
+      materials.push_back(scene.materials[input.material]);
+      emission.push_back(materials.back().emission);
+    }
+    const std::vector<radiosity::Surface> boundaries = scenes::boundaries(lookup.objects());
+    const radiosity::DirectLight direct{lookup.objects(), boundaries, emission};
+    std::vector<PhotonGrid::Photon> photons = radiosity::lamp_photons(boundaries, emission, met_among(lookup.objects()));
+    for (PhotonGrid::Photon& photon : photons) {
+      photon.source = static_cast<std::uint32_t>(direct.lamp_of(photon.source) - direct.lamps().data());
+    }
+    const PhotonGrid grid{photons, lookup.objects().diameter()};
+    CHECK(grid.empty() == !many);
+    const radiosity::NearLight near{lookup, direct, materials, grid};
+    const radiosity::NearLight::Seen seen{{{(x - solution.frame.centre) * solution.frame.scale, {0, 0, 1}}, 0, 4}, radiosity::Color{1.0}};
+    found[many] = spread_of(256, [&](std::uint64_t k) { return near.light({&seen, 1}, 64, radiosity::scramble(seed) + k, nullptr).light.x; });
+  }
+  CAPTURE(found[0].mean, found[1].mean, found[0].deviation, found[1].deviation);
+  CHECK(std::abs(found[0].mean - found[1].mean) < 0.1 * found[0].mean);
+  CHECK(found[1].deviation < 2.0 * found[0].deviation);
+}
