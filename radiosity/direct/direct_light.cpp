@@ -52,7 +52,7 @@ inline constexpr std::size_t samples_of_lamp = 256;
 inline constexpr double large_lamp = 0.25;
 inline constexpr std::size_t fine_samples = 4096;
 inline constexpr std::size_t most_fine = 4;
-// Of all lamps together, where they were joined; none has less than one round. Each is a small part of the light then.
+// Of all lamps together, where they were joined; none has less than one round. Each is a small part of the light then, but for large ones.
 inline constexpr std::size_t samples_of_joined = 1024;
 
 // A rectangle around points of a plane with this normal.
@@ -186,15 +186,14 @@ HALFLIGHT_INLINE DirectLight::DirectLight(const raycast::Scene& objects, const s
     samples = std::clamp<std::size_t>(std::bit_floor(detail::samples_of_joined / lamps), 16, samples);
   }
   std::stable_sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) { return a.strength > b.strength; });
-  std::vector<bool> is_fine;  // by lamp
+  std::vector<bool> is_large, is_fine;  // by lamp
   std::size_t fine_ones = 0;
   double taken = 0.0;
   for (const Candidate& c : candidates) {
     if (lamps_.size() == limits.most) { break; }
     Lamp lamp = make_lamp(objects, surfaces, c);
     if (lamp.facets.empty()) { continue; }
-    const bool fine =
-        samples == detail::samples_of_lamp && std::sqrt(c.area) > detail::large_lamp * objects.diameter() && fine_ones < detail::most_fine;
+    const bool large = std::sqrt(c.area) > detail::large_lamp * objects.diameter(), fine = large && fine_ones < detail::most_fine;
     fine_ones += fine ? 1 : 0;
     if (detail::surrounds(lamp.facets, lamp.centre)) {
       taken += c.area;
@@ -206,13 +205,14 @@ HALFLIGHT_INLINE DirectLight::DirectLight(const raycast::Scene& objects, const s
       }
     }
     lamps_.push_back(std::move(lamp));
+    is_large.push_back(large);
     is_fine.push_back(fine);
   }
   if (lamps_.empty()) { return; }
   take_bodies(surfaces);
   for (std::size_t k = 0; k < lamps_.size(); ++k) {
     Lamp& lamp = lamps_[k];
-    take_samples(lamp, samples, is_fine[k]);
+    take_samples(lamp, is_large[k] ? detail::samples_of_lamp : samples, is_fine[k]);
     lamp.behind.assign(objects.size(), false);
     const Facets::Facet& plane = lamp.facets.facets[0];
     for (std::uint32_t o = 0; o < bodies_.size() && lamp.flat; ++o) {
@@ -225,20 +225,30 @@ HALFLIGHT_INLINE DirectLight::DirectLight(const raycast::Scene& objects, const s
 
 HALFLIGHT_INLINE std::vector<DirectLight::Candidate> DirectLight::join_alike(const std::vector<Candidate>& singles,
                                                                              const raycast::Scene& objects, std::uint32_t most) {
-  std::vector<Candidate> joined;  // flat sheets by object and exitance; the candidates come object by object
-  std::size_t first_of_object = 0;
-  for (const Candidate& single : singles) {
-    const std::uint32_t o = single.parts[0].object;
-    if (!joined.empty() && joined.back().parts[0].object != o) { first_of_object = joined.size(); }
-    const auto alike = std::find_if(joined.begin() + static_cast<std::ptrdiff_t>(first_of_object), joined.end(),
-                                    [&](const Candidate& c) { return c.exitance == single.exitance && objects.object(o).flat(); });
-    if (alike == joined.end()) {
-      joined.push_back(single);
-      continue;
+  std::vector<Candidate> joined;
+  // Flat sheets that shine alike, of objects that have more than `few` of them; the candidates come object by object.
+  const auto join_sheets = [&](std::size_t few) {
+    joined.clear();
+    for (std::size_t first = 0, last = 0; first < singles.size(); first = last) {
+      const std::uint32_t o = singles[first].parts[0].object;
+      while (last < singles.size() && singles[last].parts[0].object == o) { ++last; }
+      const std::size_t first_of_object = joined.size();
+      for (const Candidate& single : std::span{singles}.subspan(first, last - first)) {
+        const auto alike = std::find_if(joined.begin() + static_cast<std::ptrdiff_t>(first_of_object), joined.end(),
+                                        [&](const Candidate& c) { return c.exitance == single.exitance; });
+        if (last - first <= few || !objects.object(o).flat() || alike == joined.end()) {
+          joined.push_back(single);
+          continue;
+        }
+        alike->parts[0].sheets.push_back(single.parts[0].sheets[0]);
+        alike->area += single.area;
+      }
     }
-    alike->parts[0].sheets.push_back(single.parts[0].sheets[0]);
-    alike->area += single.area;
-  }
+  };
+  // The walls of a sky are lamps of their own as long as there is room for them: one lamp of all would be all around its middle.
+  constexpr std::size_t few_sheets = 8;
+  join_sheets(few_sheets);
+  if (joined.size() > most) { join_sheets(1); }
   if (joined.size() <= most) { return joined; }
   // Objects that shine alike, halved by place into groups of about the same number.
   const auto before = [](const Color& a, const Color& b) { return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z; };

@@ -169,6 +169,9 @@ inline constexpr std::uint32_t enough_spots = 32;  // met by them: then their sp
 // their mean; if there are more, by so much more.
 inline constexpr double least_near = 0.05, plain_paths = 256.0;
 
+// What so few rays meet may hide as much of the light of a point: an eave above it, a leg of a table.
+inline constexpr double few_rays = 0.01;
+
 inline constexpr double least_distance = 1e-6;  // of what is seen, in a scene of size 1 to 2: nearer counts as this
 
 }  // namespace detail
@@ -200,6 +203,7 @@ HALFLIGHT_INLINE void FinalGather::cast_evenly(const Sender& sender, const Sobol
     const raycast::Hit& hit = hits.hit[k];
     const double distance = std::max(hit.t * reach, detail::least_distance);
     sum.nearness += 1.0 / distance;
+    sum.distances.push_back(distance);
     if (!hit.front) { continue; }
     const Met at = met(hit, segments.at(k));
     const Arriving found = arriving(sender, at);
@@ -306,7 +310,14 @@ HALFLIGHT_INLINE FinalGather::Indirect FinalGather::indirect(const Place& place,
     of_near = mend_near(sum, place, std::max(4.0 * mean_of_parts(), all * solved_light), rays, most_paths, error, key);
   }
   const double lit = 4.0 * mean_of_parts();
-  return {sum.light / all, (16.0 * variance_of_mean() + of_near) / (all * all), sum.nearness / all, lit > 0.0 ? sum.of_light / lit : 0.0};
+  const auto few = static_cast<std::ptrdiff_t>(detail::few_rays * all);
+  Indirect result{sum.light / all, (16.0 * variance_of_mean() + of_near) / (all * all), sum.nearness / all,
+                  lit > 0.0 ? sum.of_light / lit : 0.0};
+  if (few < std::ssize(sum.distances)) {
+    std::nth_element(sum.distances.begin(), sum.distances.begin() + few, sum.distances.end());
+    result.nearest = sum.distances[static_cast<std::size_t>(few)];
+  }
+  return result;
 }
 
 }  // namespace radiosity

@@ -85,6 +85,7 @@ class FinalGather {
     double variance = 0.0;           // of the sum of its channels, by the spread of its rays
     double nearness = 0.0;           // 1 / harmonic mean distance of what is seen, in the frame
     double nearness_of_light = 0.0;  // the same with each distance weighted by the light from there
+    double nearest = raycast::infinity;  // the distance within which some few of the rays end
   };
   // Light that comes to a point by reflection, or from what is no lamp: by `least` rays, a positive multiple of 64, or as many more, up to
   // `most`, as it takes for the standard error to fall to this share of the light; what the mesh is too coarse for adds one of about this
@@ -108,6 +109,7 @@ class FinalGather {
     Color light{0.0};
     std::array<double, 4> part{};           // of the rays, by fours of sixteen: their spread is the standard error
     double nearness = 0.0, of_light = 0.0;  // sums of 1 / distance: of the rays, and by the light that they bring
+    std::vector<double> distances;          // of even rays
     std::uint32_t spots_met = 0;            // by aimed rays
     std::vector<NearLight::Seen> near;      // what even rays found that is not so sure (near_light.hpp)
     void add(std::size_t p, const Color& more, double distance) {

@@ -32,6 +32,8 @@ inline constexpr GatherRays gather_rays;
 // Of a point that is gathered once more because it was doubtful. What is near leaves most noise, so it takes most of the work.
 inline constexpr GatherRays gather_rays_again{1024, 4096, 0.02, 1024};
 inline constexpr double gathered_part_of_distance = 0.2, most_fit = 3.0;
+// Of the distance of the nearest things: the mean does not tell of an eave that few rays meet, and a step farther many do.
+inline constexpr double gathered_part_of_nearest = 0.75;
 
 struct GatheredPoint {
   glm::dvec3 position{0.0}, normal{0.0};

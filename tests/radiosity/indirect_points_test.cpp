@@ -6,14 +6,21 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <random>
 #include <vector>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include <radiosity/camera/indirect_points.hpp>
+#include <radiosity/picture/final_gather.hpp>
+#include <radiosity/radiosity.hpp>
+#include <radiosity/scene/material.hpp>
+#include <radiosity/scene/scene.hpp>
 #include <radiosity/support/random.hpp>
 
-#include <radiosity/camera/indirect_points.hpp>
+#include "scenes.hpp"
+#include "solved.hpp"
 
 namespace {
 
@@ -200,6 +207,40 @@ TEST_CASE("indirect points that lie off those around them are gathered once more
       const glm::dvec3 place{0.01 * x, 0.01 * y, 0.0};
       const auto light = points.at(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), place, {0, 0, 1}, 0);
       if (light) { CHECK(std::abs(light->x / field(place) - 1.0) < 0.04); }
+    }
+  }
+}
+
+// Under an eave the light of a wall falls off within the eave's width, and from below it few rays tell of it: in the mean they go far.
+TEST_CASE("the sphere of a point of indirect light ends before what few of its rays meet is near", "[picture]") {
+  const auto seed = std::random_device{}();
+  INFO("seed " << seed);
+  radiosity::Random random{seed, 0};
+  radiosity::Options options;
+  options.epsilon = 0.5;
+  options.audit_points = 0;
+  for (int round = 0; round < 6; ++round) {
+    const double width = 0.02 * std::pow(20.0, random.uniform());
+    radiosity::Scene scene{{{"white", radiosity::Color{0.5}, radiosity::Color{0.0}}, {"sky", radiosity::Color{0.0}, radiosity::Color{1.0}}}, {}};
+    scene.objects = {scenes::object("world", scenes::box({-30, -30, 0}, {30, 30, 20}), 1, true),
+                     scenes::object("wall", scenes::box({0, -4, 0}, {1, 4, 3}), 0),
+                     scenes::object("eave", scenes::box({-width, -4, 3}, {1, 4, 3.1}), 0)};
+    scene.objects[0].material = {1, 1, 1, 1, 0, 1};
+    const radiosity::Solution solution = scenes::solved(scene, options);
+    const radiosity::FinalGather light{scene, solution.mesh, solution.frame};
+    for (int i = 0; i < 20; ++i) {
+      const double below = width * 0.2 * std::pow(50.0, random.uniform());
+      const glm::dvec3 x{0, 2.0 * random.uniform() - 1.0, 3.0 - below};
+      if (below > 1.5) { continue; }
+      const radiosity::FinalGather::Place place{{(x - solution.frame.centre) * solution.frame.scale, {-1, 0, 0}}, 1, 6};
+      const auto found = light.indirect(place, 512, 512, 0.03, random.bits());
+      const double seen = 0.5 * (1.0 - below / std::hypot(below, width)), nearest = found.nearest / solution.frame.scale;
+      CAPTURE(width, below, seen, nearest);
+      CHECK(nearest > 0.99 * below);
+      // 1 % of 512 rays; of as many even ones that see twice as much, by far more than that meet it. The eave is some widths long.
+      if (seen > 0.03) { CHECK(nearest < 1.5 * std::hypot(below, width)); }
+      const auto point = radiosity::indirect_point(found, {0, 0}, place, place.point.position + glm::dvec3{-1, 0, 0}, 0.2 * found.nearest);
+      CHECK(point.radius <= 0.76 * found.nearest);
     }
   }
 }
