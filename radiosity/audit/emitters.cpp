@@ -27,44 +27,13 @@
 #include <raycast/object.hpp>
 #include <raycast/transform.hpp>
 
+#include <radiosity/geometry/compact_triangles.hpp>
 #include <radiosity/geometry/form_factor.hpp>
+#include <radiosity/geometry/photon_grid.hpp>
 #include <radiosity/hierarchy/surface.hpp>
 #include <radiosity/scene/material.hpp>
 
 namespace radiosity {
-
-namespace detail {
-
-HALFLIGHT_INLINE std::vector<std::array<glm::dvec3, 3>> compact_triangles(const std::vector<Polygon>& faces) {
-  std::vector<std::array<glm::dvec3, 3>> pieces;
-  for (const Polygon& face : faces) {
-    for (std::size_t i = 1; i + 1 < face.size(); ++i) { pieces.push_back({face[0], face[i], face[i + 1]}); }
-  }
-  const std::size_t most = std::max<std::size_t>(4096, 2 * pieces.size());
-  for (std::size_t k = 0; k < pieces.size() && pieces.size() < most;) {
-    auto& [a, b, c] = pieces[k];
-    const double ab = glm::length(b - a), bc = glm::length(c - b), ca = glm::length(a - c);
-    const double longest = std::max({ab, bc, ca});
-    const double area = 0.5 * glm::length(glm::cross(b - a, c - a));
-    if (!(area > 0.0) || longest * longest <= 8.0 * area) {  // a right triangle of two equal legs has 4
-      ++k;
-      continue;
-    }
-    while (glm::length(b - a) < longest) {  // now a b is the longest
-      const glm::dvec3 first = a;
-      a = b;
-      b = c;
-      c = first;
-    }
-    const glm::dvec3 middle = 0.5 * (a + b);
-    const std::array<glm::dvec3, 3> rest{middle, b, c};
-    b = middle;
-    pieces.push_back(rest);
-  }
-  return pieces;
-}
-
-}  // namespace detail
 
 HALFLIGHT_INLINE bool Emitters::even(const std::vector<Surface>& surfaces, const std::vector<Color>& emission) {
   double area = 0.0, power = 0.0, brightest = 0.0, dimmest = std::numeric_limits<double>::infinity();

@@ -97,7 +97,7 @@ class Emitters {
     double offset = 0.0;      // of that plane
     std::uint32_t first = 0;  // its shape, or the first of its two children
     bool leaf = true;
-    bool several = false;  // surfaces below
+    bool several = false;          // surfaces below
     std::uint32_t surface = none;  // that all shapes below belong to, and none beside them
   };
 
@@ -134,13 +134,6 @@ class Emitters {
   std::vector<std::uint32_t> shown_by_, node_of_;
   PhotonGrid photons_;
 };
-
-namespace detail {
-
-// Triangles that are hardly longer than wide: needles are halved across their longest edge, into 4096 pieces at most.
-std::vector<std::array<glm::dvec3, 3>> compact_triangles(const std::vector<Polygon>& faces);
-
-}  // namespace detail
 
 template <class Numbers>
 std::optional<Emitters::Sample> Emitters::sample(const glm::dvec3& x, const glm::dvec3& n, Numbers& random) const {

@@ -22,9 +22,9 @@ namespace radiosity {
 using MeetFront = std::function<std::optional<raycast::SurfacePoint>(const raycast::SurfacePoint& from, const glm::dvec3& direction,
                                                                      std::uint32_t object, std::uint32_t sheet)>;
 
-// `surfaces`: the boundaries of all objects, in their order; `emission`: exitance of each input surface. The source of a photon is the input
-// surface that it comes from. Half of them are sent by power; half by surface, for a dim lamp may be all that its room has. None where fewer
-// than two surfaces shine: then there is nothing to choose.
+// `surfaces`: the boundaries of all objects, in their order; `emission`: exitance of each input surface. The source of a photon is the
+// input surface that it comes from. Half of them are sent by power; half by surface, for a dim lamp may be all that its room has. None
+// where fewer than two surfaces shine: then there is nothing to choose.
 [[nodiscard]] std::vector<PhotonGrid::Photon> lamp_photons(const std::vector<Surface>& surfaces, const std::vector<Color>& emission,
                                                            const MeetFront& meet);
 

@@ -20,7 +20,7 @@ namespace radiosity {
 
 namespace detail {
 
-inline constexpr std::uint32_t photon_grids = 4;         // each with cells twice as wide as those before
+inline constexpr std::uint32_t photon_grids = 4;          // each with cells twice as wide as those before
 inline constexpr double finest_photon_cell = 1.0 / 64.0;  // of the diameter of the scene
 inline constexpr std::size_t least_photons = 16;          // in a cell that is asked
 

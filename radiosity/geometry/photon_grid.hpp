@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Which sources light a place: photons that landed around it, counted in the cells of grids, the finer ones where photons are many ("On
-// Importance Sampling from Photon Maps", Jensen 1995). In a house of ten rooms a point is lit by the lamps of its own one; the others, which
-// may be brighter and nearer, are behind walls. A source that has no photon here may light a place all the same: what is chosen by
-// these shares must be chosen in other ways, too.
+// Which sources light a place: photons that landed around it, counted in the cells of grids, the finer ones where photons are many
+// ("Importance driven path tracing using the photon map", Jensen 1995). In a house of ten rooms a point is lit by the lamps of its own
+// room; the others, which may be brighter and nearer, are behind walls. A source that has no photon here may light a place all the same:
+// what is chosen by these shares must be chosen in other ways, too.
 
 #include <cstddef>
 #include <cstdint>
@@ -33,7 +33,8 @@ class PhotonGrid {
     std::uint32_t source = 0;
     double share = 0.0;
   };
-  // Of the photons on what faces about this way around a place, by ascending source; they sum to 1. Empty where photons are too few to tell.
+  // Of the photons on what faces about this way around a place, by ascending source; they sum to 1. Empty where photons are too few to
+  // tell.
   [[nodiscard]] std::span<const Share> around(const glm::dvec3& position, const glm::dvec3& normal) const;
   // That of one source; 0 when it has none.
   [[nodiscard]] static double share_of(std::span<const Share> shares, std::uint32_t source);

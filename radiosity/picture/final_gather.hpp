@@ -81,10 +81,10 @@ class FinalGather {
   [[nodiscard]] bool direct_alone() const { return direct_alone_; }
 
   struct Indirect {
-    Color irradiance{0.0};           // W/m2
-    double variance = 0.0;           // of the sum of its channels, by the spread of its rays
-    double nearness = 0.0;           // 1 / harmonic mean distance of what is seen, in the frame
-    double nearness_of_light = 0.0;  // the same with each distance weighted by the light from there
+    Color irradiance{0.0};               // W/m2
+    double variance = 0.0;               // of the sum of its channels, by the spread of its rays
+    double nearness = 0.0;               // 1 / harmonic mean distance of what is seen, in the frame
+    double nearness_of_light = 0.0;      // the same with each distance weighted by the light from there
     double nearest = raycast::infinity;  // the distance within which some few of the rays end
   };
   // Light that comes to a point by reflection, or from what is no lamp: by `least` rays, a positive multiple of 64, or as many more, up to

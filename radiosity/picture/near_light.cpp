@@ -61,8 +61,8 @@ struct ChosenLamp {
   double probability = 0.0;
 };
 
-// How a lamp is chosen at a place: mostly by the photons that have landed there, else by its strength. The strength alone would choose lamps
-// behind walls, the photons alone might miss one that shines past an edge.
+// How a lamp is chosen at a place: mostly by the photons that have landed there, else by its strength. The strength alone would choose
+// lamps behind walls, the photons alone might miss one that shines past an edge.
 class LampChoice {
  public:
   LampChoice(const DirectLight& direct, const PhotonGrid& photons, const raycast::SurfacePoint& at)

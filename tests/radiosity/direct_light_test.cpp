@@ -34,7 +34,6 @@
 
 #include "catch.hpp"
 #include "lit_world.hpp"
-#include "many_scene.hpp"
 #include "scenes.hpp"
 
 using radiosity::Color;
@@ -308,22 +307,6 @@ TEST_CASE("direct light: the strongest lamps are taken, within the limits, flat 
 }
 
 // What segments say of a large lamp of which little is seen: a sky, through small holes in a plate that has too many faces to be cut out.
-TEST_CASE("direct light: the walls of a sky are lamps, however many facets shine beside them", "[direct]") {
-  Scene scene{{{"white", Color{0.5}, Color{0.0}}, {"sky", Color{0.0}, Color{1.0}}, {"bulb", Color{0.0}, Color{50.0}}}, {}};
-  scene.objects = {scenes::object("world", scenes::box({-30, -30, 0}, {30, 30, 20}), 0, true)};
-  scene.objects[0].material = {1, 1, 1, 1, 0, 1};
-  for (int bulbs = 0; bulbs < 4; ++bulbs) {
-    const auto prepared = std::move(*radiosity::prepare(scene).prepared);
-    std::vector<Color> emission;
-    for (const radiosity::InputSurface& s : radiosity::surfaces(scene)) { emission.push_back(scene.materials[s.material].emission); }
-    const radiosity::DirectLight light{prepared.objects, prepared.surfaces, emission, {.bodies = true}};
-    CAPTURE(bulbs);
-    for (std::uint32_t s = 0; s < emission.size(); ++s) { CHECK(light.is_lamp(s) == (s != 4)); }
-    CHECK(light.lamps().size() == static_cast<std::size_t>(5 + bulbs));
-    scene.objects.push_back(scenes::object("bulb" + std::to_string(bulbs), scenes::ball({2.0 * bulbs, 1, 2}, 0.1, 6), 2));
-  }
-}
-
 TEST_CASE("direct light: a sky through a few holes is what many segments say", "[direct][accuracy]") {
   const std::uint64_t seed = std::random_device{}();
   INFO("seed " << seed);

@@ -221,7 +221,8 @@ TEST_CASE("the sphere of a point of indirect light ends before what few of its r
   options.audit_points = 0;
   for (int round = 0; round < 6; ++round) {
     const double width = 0.02 * std::pow(20.0, random.uniform());
-    radiosity::Scene scene{{{"white", radiosity::Color{0.5}, radiosity::Color{0.0}}, {"sky", radiosity::Color{0.0}, radiosity::Color{1.0}}}, {}};
+    radiosity::Scene scene{{{"white", radiosity::Color{0.5}, radiosity::Color{0.0}}, {"sky", radiosity::Color{0.0}, radiosity::Color{1.0}}},
+                           {}};
     scene.objects = {scenes::object("world", scenes::box({-30, -30, 0}, {30, 30, 20}), 1, true),
                      scenes::object("wall", scenes::box({0, -4, 0}, {1, 4, 3}), 0),
                      scenes::object("eave", scenes::box({-width, -4, 3}, {1, 4, 3.1}), 0)};

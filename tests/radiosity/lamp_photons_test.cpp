@@ -176,7 +176,9 @@ TEST_CASE("near light: the lamps of other rooms, however bright, add next to no 
     CHECK(grid.empty() == !many);
     const radiosity::NearLight near{lookup, direct, materials, grid};
     const radiosity::NearLight::Seen seen{{{(x - solution.frame.centre) * solution.frame.scale, {0, 0, 1}}, 0, 4}, radiosity::Color{1.0}};
-    found[many] = spread_of(256, [&](std::uint64_t k) { return near.light({&seen, 1}, 64, radiosity::scramble(seed) + k, nullptr).light.x; });
+    found[many] = spread_of(256, [&](std::uint64_t k) {
+      return near.light({&seen, 1}, 64, radiosity::scramble(seed) + k, nullptr).light.x;
+    });
   }
   CAPTURE(found[0].mean, found[1].mean, found[0].deviation, found[1].deviation);
   CHECK(std::abs(found[0].mean - found[1].mean) < 0.1 * found[0].mean);

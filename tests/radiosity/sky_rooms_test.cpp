@@ -14,6 +14,7 @@
 #include <glm/vec3.hpp>
 
 #include <radiosity/audit/path_tracer.hpp>
+#include <radiosity/direct/direct_light.hpp>
 #include <radiosity/radiosity.hpp>
 #include <radiosity/scene/material.hpp>
 #include <radiosity/scene/options.hpp>
@@ -22,6 +23,7 @@
 #include <radiosity/visibility/prepare.hpp>
 
 #include "catch.hpp"
+#include "many_scene.hpp"
 #include "scenes.hpp"
 
 using radiosity::Color;
@@ -194,4 +196,20 @@ TEST_CASE("importance: the dark end of a hall that a large sky lights at the oth
     sum += ratio;
   }
   CHECK(std::abs(sum / halls) < 0.6);
+}
+
+TEST_CASE("the walls of a sky are lamps, however many facets shine beside them", "[direct]") {
+  Scene scene{{{"white", Color{0.5}, Color{0.0}}, {"sky", Color{0.0}, Color{1.0}}, {"bulb", Color{0.0}, Color{50.0}}}, {}};
+  scene.objects = {scenes::object("world", scenes::box({-30, -30, 0}, {30, 30, 20}), 0, true)};
+  scene.objects[0].material = {1, 1, 1, 1, 0, 1};
+  for (int bulbs = 0; bulbs < 4; ++bulbs) {
+    const auto prepared = std::move(*radiosity::prepare(scene).prepared);
+    std::vector<Color> emission;
+    for (const radiosity::InputSurface& s : radiosity::surfaces(scene)) { emission.push_back(scene.materials[s.material].emission); }
+    const radiosity::DirectLight light{prepared.objects, prepared.surfaces, emission, {.bodies = true}};
+    CAPTURE(bulbs);
+    for (std::uint32_t s = 0; s < emission.size(); ++s) { CHECK(light.is_lamp(s) == (s != 4)); }
+    CHECK(light.lamps().size() == static_cast<std::size_t>(5 + bulbs));
+    scene.objects.push_back(scenes::object("bulb" + std::to_string(bulbs), scenes::ball({2.0 * bulbs, 1, 2}, 0.1, 6), 2));
+  }
 }

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include <radiosity/geometry/form_factor.hpp>
+
+namespace radiosity {
+
+namespace detail {
+
+// Triangles that are hardly longer than wide: needles are halved across their longest edge, into 4096 pieces at most.
+[[nodiscard]] std::vector<std::array<glm::dvec3, 3>> compact_triangles(const std::vector<Polygon>& faces);
+
+}  // namespace detail
+
+}  // namespace radiosity
+
+#ifdef HALFLIGHT_HEADER_ONLY
+#include <radiosity/geometry/compact_triangles.cpp>
+#endif
