@@ -23,7 +23,7 @@ std::string error_text(const std::optional<radiosity::ErrorEstimate>& error) {
 }
 
 // Does the interval leave open how large the error is?
-bool wide(const radiosity::ErrorEstimate& error) {
+bool leaves_open(const radiosity::ErrorEstimate& error) {
   return error.high > radiosity::negligible_error && error.high - error.low > std::max(0.01, 1.5 * error.relative_l2);
 }
 
@@ -70,7 +70,7 @@ class Text {
     if (report_.options.reconstruction != radiosity::Reconstruction::none) { row("surfaces", error_text(audit_.surface_error)); }
     row("leaf constants", error_text(audit_.leaf_error));
     const auto& surfaces = audit_.surface_error ? audit_.surface_error : audit_.leaf_error;
-    if ((surfaces && wide(*surfaces)) || (audit_.picture_error && wide(audit_.picture_error->error))) {
+    if ((surfaces && leaves_open(*surfaces)) || (audit_.picture_error && leaves_open(audit_.picture_error->error))) {
       row("", "wide: an audit takes at most about as long as what it judges, or " +
                   grouped(radiosity::rays_to_know_a_point * report_.options.audit_points) + " plain rays; --audit " +
                   std::to_string(4 * std::uint64_t{report_.options.audit_points}) + " allows four times as many");

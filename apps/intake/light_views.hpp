@@ -23,8 +23,8 @@ class LightViews {
  public:
   // Less than this share of what a camera sees, lit by no lamp directly, is next to nothing.
   static constexpr double tol_dark = 0.02;
-  // From outside a house shows its light through some windows. A view that nobody asked for, and of which less than the first share is lit,
-  // gives way to one from within that has the second share.
+  // From outside a house shows its light through some windows. Where less than `little_light` of what the automatic view sees is lit, a
+  // view from within takes its place, if `much_light` of that is.
   static constexpr double little_light = 0.2, much_light = 0.5;
 
   explicit LightViews(const radiosity::Scene& scene);

@@ -226,11 +226,16 @@ class SceneMaker {
       if (views.lit_share(file_.cameras[i]) < LightViews::tol_dark) { dark.push_back("'" + file_.cameras[i].name + "'"); }
       if (file_.cameras[i].name == "inside") { return; }
     }
-    const double from_outside = file_.cameras.empty() ? views.lit_share(radiosity::automatic_camera(file_.scene)) : 0.0;
-    if (from_outside >= LightViews::little_light || (!file_.cameras.empty() && dark.empty())) { return; }
+    double enough = LightViews::tol_dark;
+    if (file_.cameras.empty()) {
+      const double from_outside = views.lit_share(radiosity::automatic_camera(file_.scene));
+      if (from_outside >= LightViews::little_light) { return; }
+      if (from_outside >= LightViews::tol_dark) { enough = LightViews::much_light; }
+    } else if (dark.empty()) {
+      return;
+    }
     auto camera = views.inside();
-    const double enough = from_outside < LightViews::tol_dark ? LightViews::tol_dark : LightViews::much_light;
-    if (!camera || views.lit_share(*camera) < enough) { camera.reset(); }
+    if (camera && views.lit_share(*camera) < enough) { camera.reset(); }
     if (file_.cameras.empty()) {
       if (camera) { note("from outside little is seen of its light: the camera stands in the room of a lamp"); }
     } else {

@@ -68,7 +68,7 @@ HALFLIGHT_INLINE bool Emitters::even(const std::vector<Surface>& surfaces, const
 
 HALFLIGHT_INLINE Emitters::Emitters(const std::vector<Surface>& surfaces, const std::vector<Color>& emission) {
   if (even(surfaces, emission)) { return; }
-  shown_by_.assign(emission.size(), none);
+  kept_as_.assign(emission.size(), none);
   node_of_.assign(emission.size(), none);
   for (const Surface& surface : surfaces) {
     std::vector<std::vector<Polygon>> curved(surface.object->sheet_count());  // faces, by sheet
@@ -89,7 +89,7 @@ HALFLIGHT_INLINE Emitters::Emitters(const std::vector<Surface>& surfaces, const 
       } else if (alike.at(sum) <= most_single_faces) {
         add_flat(surface.first_surface + sheet, polygon, sum);
       } else {
-        shown_by_[surface.first_surface + sheet] = surface.first_surface;
+        kept_as_[surface.first_surface + sheet] = surface.first_surface;
         bodies[sum].push_back(std::move(polygon));
       }
     }
@@ -112,7 +112,7 @@ HALFLIGHT_INLINE Emitters::Emitters(const std::vector<Surface>& surfaces, const 
 
 HALFLIGHT_INLINE void Emitters::guide(std::vector<PhotonGrid::Photon> photons, double diameter) {
   for (PhotonGrid::Photon& photon : photons) {
-    if (shown_by_[photon.source] != none) { photon.source = shown_by_[photon.source]; }
+    if (kept_as_[photon.source] != none) { photon.source = kept_as_[photon.source]; }
   }
   std::erase_if(photons, [&](const PhotonGrid::Photon& photon) { return node_of_[photon.source] == none; });
   photons_ = PhotonGrid{photons, diameter};
@@ -292,12 +292,17 @@ HALFLIGHT_INLINE double Emitters::density(const glm::dvec3& x, const glm::dvec3&
   std::array<Entry, 128> stack;  // the tree halves surfaces, then their shapes: 2 x 32 levels at most, two entries each
   std::size_t top = 0;
   double sum = 0.0;
-  const Choice by{photons_.around(x, n)};
+  const PhotonGrid::Around around = photons_.around(x, n);
+  bool met_sampled = sampled == none;
   const auto take = [&](std::uint32_t index, double by_tree) {
-    const double probability = by.of(nodes_[index], by_tree);
     if (!(by_tree > 0.0)) { return; }
-    if (nodes_[index].leaf) {
-      sum += probability * density_of(shapes_[nodes_[index].first], x, w, index == sampled);
+    const Node& node = nodes_[index];
+    const double probability =
+        node.surface == none ? by_tree : (1.0 - around.trust) * by_tree + around.trust * around.share_of(node.surface);
+    if (node.leaf) {
+      const double of_leaf = density_of(shapes_[node.first], x, w, index == sampled);
+      met_sampled = met_sampled || (index == sampled && of_leaf > 0.0);
+      sum += probability * of_leaf;
     } else {
       stack[top++] = {index, probability};
     }
@@ -313,7 +318,7 @@ HALFLIGHT_INLINE double Emitters::density(const glm::dvec3& x, const glm::dvec3&
     if (first) { take(node.first, probability * share); }
     if (second) { take(node.first + 1, probability * (1.0 - share)); }
   }
-  return sum;
+  return met_sampled ? sum : 0.0;
 }
 
 HALFLIGHT_INLINE double Emitters::work(const glm::dvec3& x, const glm::dvec3& n, const glm::dvec3& w) const {

@@ -98,19 +98,7 @@ class Emitters {
     std::uint32_t first = 0;  // its shape, or the first of its two children
     bool leaf = true;
     bool several = false;          // surfaces below
-    std::uint32_t surface = none;  // that all shapes below belong to, and none beside them
-  };
-
-  // How emitters are chosen at a point, from the root of the tree and by photons.
-  static constexpr double by_photons = 0.75;
-  struct Choice {
-    std::span<const PhotonGrid::Share> shares;  // empty: from the root alone
-    [[nodiscard]] double guided() const { return shares.empty() ? 0.0 : by_photons; }
-    // The probability to come to a node, when it is so much by the tree.
-    [[nodiscard]] double of(const Node& node, double by_tree) const {
-      if (node.surface == none || shares.empty()) { return by_tree; }
-      return (1.0 - by_photons) * by_tree + by_photons * PhotonGrid::share_of(shares, node.surface);
-    }
+    std::uint32_t surface = none;  // of all shapes below, at the top node of this surface; else none
   };
 
   void add_flat(std::uint32_t surface, const Polygon& polygon, double exitance);
@@ -123,15 +111,15 @@ class Emitters {
   // Does the line from x in the direction w come through the sphere around the shapes of this node?
   [[nodiscard]] static bool meets(const Node& node, const glm::dvec3& x, const glm::dvec3& w);
   [[nodiscard]] static double density_of(const Shape& shape, const glm::dvec3& x, const glm::dvec3& w, bool meets);
-  // As above; the direction is known to meet the shape of the leaf `sampled`, whatever rounding says. `opened`: counts the nodes whose
-  // children are looked at.
+  // As above; the direction is known to meet the shape of the leaf `sampled`, whatever rounding says. 0 where that leaf cannot be seen from
+  // x: photons around x may choose it all the same. `opened`: counts the nodes whose children are looked at.
   [[nodiscard]] double density(const glm::dvec3& x, const glm::dvec3& n, const glm::dvec3& w, std::uint32_t sampled,
                                std::size_t* opened = nullptr) const;
 
   std::vector<Shape> shapes_;
-  std::vector<Node> nodes_;  // the root first
-  // By input surface: the one of its shapes, for those of a body have one; and the node of those of that one, if there are any.
-  std::vector<std::uint32_t> shown_by_, node_of_;
+  std::vector<Node> nodes_;             // the root first
+  std::vector<std::uint32_t> kept_as_;  // by input surface: the surface of its shapes, for those of a body have one; none: its own
+  std::vector<std::uint32_t> node_of_;  // by input surface: the top node of its shapes; or none
   PhotonGrid photons_;
 };
 
@@ -142,15 +130,11 @@ std::optional<Emitters::Sample> Emitters::sample(const glm::dvec3& x, const glm:
   const double u = random.uniform();
   const double v = random.uniform();
   std::uint32_t index = 0;
-  const Choice by{photons_.around(x, n)};
-  if (choice < by.guided()) {
-    choice /= by.guided();
-    auto share = by.shares.begin();
-    for (; share + 1 != by.shares.end() && choice >= share->share; ++share) { choice -= share->share; }
-    choice = std::min(choice / share->share, 1.0 - 0x1p-53);
-    index = node_of_[share->source];
+  if (const PhotonGrid::Around around = photons_.around(x, n); choice < around.trust) {
+    choice /= around.trust;
+    index = node_of_[around.choose(choice)];
   } else {
-    choice = (choice - by.guided()) / (1.0 - by.guided());
+    choice = (choice - around.trust) / (1.0 - around.trust);
   }
   while (!nodes_[index].leaf) {
     const Node& node = nodes_[index];

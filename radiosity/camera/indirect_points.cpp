@@ -28,9 +28,7 @@ HALFLIGHT_INLINE IndirectPoint indirect_point(const FinalGather::Indirect& found
   point.y = pixel[1];
   const double facing = std::abs(glm::dot(point.normal, glm::normalize(point.position - eye)));
   const double footprint = pixel_size / std::max(facing, 0.2);  // of a pixel; where it is slanted, at most five times as long
-  const double nearness = std::max(found.nearness, found.nearness_of_light);
-  const double by_mean = nearness > 0.0 ? gathered_part_of_distance / nearness : raycast::infinity;
-  const double allowed = std::min(by_mean, gathered_part_of_nearest * found.nearest);
+  const double allowed = sphere_radius(std::max(found.nearness, found.nearness_of_light), found.nearest);
   point.radius = std::clamp(allowed, detail::least_pixels * footprint, detail::most_pixels * footprint);
   point.widest = most_fit * point.radius;
   point.pixels = point.radius / pixel_size;

@@ -55,36 +55,38 @@ HALFLIGHT_INLINE View make_view(const Camera& camera, const PictureSize& size) {
 
 namespace detail {
 
-// All of the scene; but no lamp far outside, as a sky behind windows, when it would make all else less than half as large, and no flat
-// ground, or ground with a sky around it, more than three times as wide as what stands on it.
+// All of the scene but for what would make the rest small in the picture:
+// - lamps far outside, as a sky behind windows, when all else is less than half as large;
+// - flat grounds more than three times as wide as what stands on them;
+// - skies that are one object with their ground, of that width.
 HALFLIGHT_INLINE raycast::Box worth_seeing(const Scene& scene) {
   struct Thing {
     raycast::Box box;
-    bool around = false;  // a ground, or with a part that shines
+    bool shines = false;  // in part
   };
   const auto shines = [&](std::uint32_t material) { return !is_black(scene.materials[material].emission); };
   const auto add = [](raycast::Box& to, const raycast::Box& box) {
     to.extend(box.lo);
     to.extend(box.hi);
   };
-  const auto flat = [](const raycast::Box& box) {
-    constexpr double thin = 1e-6;
-    return std::min({box.size().x, box.size().y, box.size().z}) < thin * box.diameter();
-  };
   std::vector<Thing> things;
   raycast::Box rest;
   for (const SceneObject& object : scene.objects) {
     if (std::all_of(object.material.begin(), object.material.end(), shines)) { continue; }
     const raycast::Box box = placed_bounds(*object.shape, object.placement);
-    things.push_back({box, flat(box) || std::any_of(object.material.begin(), object.material.end(), shines)});
+    things.push_back({box, std::any_of(object.material.begin(), object.material.end(), shines)});
     add(rest, box);
   }
   std::stable_sort(things.begin(), things.end(), [](const Thing& a, const Thing& b) { return a.box.diameter() < b.box.diameter(); });
-  raycast::Box inner;
+  raycast::Box inner;  // of what is not wider than the next thing
+  const auto around_inner = [&](const Thing& thing) {
+    constexpr double thin = 1e-6, wider = 3.0;
+    const double width = thing.box.diameter();
+    const bool ground = thing.box.size().z < thin * width && thing.box.hi.z <= inner.lo.z + thin * width;
+    return width > wider * inner.diameter() && (ground || thing.shines);
+  };
   for (auto thing = things.begin(); thing != things.end(); ++thing) {
-    const bool all_around =
-        std::all_of(thing, things.end(), [&](const Thing& t) { return t.around && t.box.diameter() > 3.0 * inner.diameter(); });
-    if (all_around && !inner.empty() && !flat(inner)) {
+    if (!inner.empty() && std::all_of(thing, things.end(), around_inner)) {
       rest = inner;
       break;
     }

@@ -22,7 +22,8 @@ namespace detail {
 
 inline constexpr std::uint32_t photon_grids = 4;          // each with cells twice as wide as those before
 inline constexpr double finest_photon_cell = 1.0 / 64.0;  // of the diameter of the scene
-inline constexpr std::size_t least_photons = 16;          // in a cell that is asked
+inline constexpr double most_trust = 0.875;
+inline constexpr std::size_t least_photons = 16;  // in a cell that is asked
 
 [[nodiscard]] HALFLIGHT_INLINE std::uint64_t photon_cell(std::uint32_t grid, double width, const glm::dvec3& position,
                                                          const glm::dvec3& normal) {
@@ -52,25 +53,38 @@ HALFLIGHT_INLINE PhotonGrid::PhotonGrid(std::span<const Photon> photons, double 
     while (last < entries.size() && entries[last].first == cell) { ++last; }
     if (last - first < detail::least_photons) { continue; }
     const std::size_t begin = shares_.size();
+    const double photons_here = static_cast<double>(last - first);
     for (std::size_t i = first; i < last; ++i) {
       if (i == first || entries[i].second != entries[i - 1].second) { shares_.push_back({entries[i].second, 0.0}); }
-      shares_.back().share += 1.0 / static_cast<double>(last - first);
+      shares_.back().share += 1.0 / photons_here;
     }
-    cells_[cell] = {begin, shares_.size()};
+    // A next photon comes from a source that has none here about as often as one of these has just one (Good 1953).
+    const auto once = std::count_if(shares_.begin() + static_cast<std::ptrdiff_t>(begin), shares_.end(),
+                                    [&](const Share& s) { return s.share < 1.5 / photons_here; });
+    cells_[cell] = {begin, shares_.size(), detail::most_trust * (1.0 - static_cast<double>(once) / photons_here)};
   }
 }
 
-HALFLIGHT_INLINE std::span<const PhotonGrid::Share> PhotonGrid::around(const glm::dvec3& position, const glm::dvec3& normal) const {
+HALFLIGHT_INLINE PhotonGrid::Around PhotonGrid::around(const glm::dvec3& position, const glm::dvec3& normal) const {
   for (std::uint32_t grid = 0; grid < detail::photon_grids && !cells_.empty(); ++grid) {
     const auto found = cells_.find(detail::photon_cell(grid, std::ldexp(width_, static_cast<int>(grid)), position, normal));
-    if (found != cells_.end()) { return std::span{shares_}.subspan(found->second.first, found->second.last - found->second.first); }
+    if (found == cells_.end()) { continue; }
+    const Cell& cell = found->second;
+    return {std::span{shares_}.subspan(cell.first, cell.last - cell.first), cell.trust};
   }
   return {};
 }
 
-HALFLIGHT_INLINE double PhotonGrid::share_of(std::span<const Share> shares, std::uint32_t source) {
+HALFLIGHT_INLINE double PhotonGrid::Around::share_of(std::uint32_t source) const {
   const auto at = std::lower_bound(shares.begin(), shares.end(), source, [](const Share& s, std::uint32_t of) { return s.source < of; });
   return at != shares.end() && at->source == source ? at->share : 0.0;
+}
+
+HALFLIGHT_INLINE std::uint32_t PhotonGrid::Around::choose(double& number) const {
+  auto share = shares.begin();
+  for (; share + 1 != shares.end() && number >= share->share; ++share) { number -= share->share; }
+  number = std::min(number / share->share, 1.0 - 0x1p-53);
+  return share->source;
 }
 
 }  // namespace radiosity

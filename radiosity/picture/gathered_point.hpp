@@ -12,10 +12,13 @@
 // Beyond its points a plane soon says nonsense, less than no light at all beside a lamp. So what it says is held within bounds that the
 // points give (neighbour clamping, Krivanek 2006): all channels by the same part, or the light would change its colour there.
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 
 #include <glm/vec3.hpp>
+
+#include <raycast/tolerances.hpp>
 
 #include <radiosity/scene/material.hpp>
 
@@ -34,6 +37,10 @@ inline constexpr GatherRays gather_rays_again{1024, 4096, 0.02, 1024};
 inline constexpr double gathered_part_of_distance = 0.2, most_fit = 3.0;
 // Of the distance of the nearest things: the mean does not tell of an eave that few rays meet, and a step farther many do.
 inline constexpr double gathered_part_of_nearest = 0.75;
+[[nodiscard]] inline double sphere_radius(double nearness, double nearest) {
+  const double by_mean = nearness > 0.0 ? gathered_part_of_distance / nearness : raycast::infinity;
+  return std::min(by_mean, gathered_part_of_nearest * nearest);
+}
 
 struct GatheredPoint {
   glm::dvec3 position{0.0}, normal{0.0};

@@ -78,9 +78,7 @@ HALFLIGHT_INLINE GatheredPoint IrradianceCache::gather(const Wanted& wanted) con
   point.position = p;
   point.normal = place.point.normal;
   point.object = place.object;
-  const double by_mean = found.nearness > 0.0 ? gathered_part_of_distance / found.nearness : wanted.most_radius;
-  const double allowed = std::min(by_mean, gathered_part_of_nearest * found.nearest);
-  point.radius = std::clamp(allowed, wanted.least_radius, wanted.most_radius);
+  point.radius = std::clamp(sphere_radius(found.nearness, found.nearest), wanted.least_radius, wanted.most_radius);
   point.widest = most_fit * point.radius;
   point.gathered = found.irradiance;
   point.variance = found.variance;

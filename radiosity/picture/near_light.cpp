@@ -66,25 +66,24 @@ struct ChosenLamp {
 class LampChoice {
  public:
   LampChoice(const DirectLight& direct, const PhotonGrid& photons, const raycast::SurfacePoint& at)
-      : lamps_{direct.lamps()}, at_{&at}, by_photons_{photons.around(at.position, at.normal)}, guided_{by_photons_.empty() ? 0.0 : 0.875} {
+      : lamps_{direct.lamps()}, at_{&at}, by_photons_{photons.around(at.position, at.normal)} {
     for (const DirectLight::Lamp& lamp : lamps_) { strength_ += strength(lamp, at); }
   }
 
   [[nodiscard]] ChosenLamp of(const DirectLight::Lamp& lamp) const {
     const double by_strength = strength_ > 0.0 ? strength(lamp, *at_) / strength_ : 0.0;
     const auto index = static_cast<std::uint32_t>(&lamp - lamps_.data());
-    return {&lamp, (1.0 - guided_) * by_strength + guided_ * PhotonGrid::share_of(by_photons_, index)};
+    return {&lamp, (1.0 - by_photons_.trust) * by_strength + by_photons_.trust * by_photons_.share_of(index)};
   }
 
   // By a number in (0, 1).
   [[nodiscard]] ChosenLamp choose(double number) const {
-    if (number < guided_) {
-      double left = number / guided_;
-      auto share = by_photons_.begin();
-      while ((left -= share->share) >= 0.0 && share + 1 != by_photons_.end()) { ++share; }
-      return of(lamps_[share->source]);
+    const double trust = by_photons_.trust;
+    if (number < trust) {
+      number /= trust;
+      return of(lamps_[by_photons_.choose(number)]);
     }
-    double left = (number - guided_) / (1.0 - guided_) * strength_;
+    double left = (number - trust) / (1.0 - trust) * strength_;
     const DirectLight::Lamp* chosen = nullptr;
     for (const DirectLight::Lamp& lamp : lamps_) {
       const double own = strength(lamp, *at_);
@@ -99,8 +98,7 @@ class LampChoice {
  private:
   std::span<const DirectLight::Lamp> lamps_;
   const raycast::SurfacePoint* at_;
-  std::span<const PhotonGrid::Share> by_photons_;
-  double guided_;          // the share of choices by photons
+  PhotonGrid::Around by_photons_;
   double strength_ = 0.0;  // of all
 };
 
@@ -140,9 +138,11 @@ HALFLIGHT_INLINE void NearLight::light_by_lamps(Paths& paths, std::span<PathNumb
     const detail::ChosenLamp& chosen = choices[k];
     if (chosen.lamp == nullptr) { return; }
     const std::vector<LampSample>& samples = chosen.lamp->samples;
-    const std::size_t first = paths_at_once * static_cast<std::size_t>(row * static_cast<double>(samples.size() / paths_at_once));
+    // From any sample of a row on, and around: few paths that choose a lamp must not all come to the first ones.
+    const auto any = static_cast<std::size_t>(row * static_cast<double>(samples.size()));
     const auto before = std::count_if(choices.begin(), choices.begin() + k, [&](const auto& c) { return c.lamp == chosen.lamp; });
-    const LampSample& sample = samples[(first + static_cast<std::size_t>(before)) % samples.size()];
+    const std::size_t in_row = (any + static_cast<std::size_t>(before)) % paths_at_once;
+    const LampSample& sample = samples[any - any % paths_at_once + in_row];
     const double ratio = detail::ray_to_chosen(chosen, at, sample.position, sample.normal);
     if (!(ratio > 0.0)) { return; }
     arriving[k] = chosen.lamp->exitance * (ratio / (1.0 + ratio));

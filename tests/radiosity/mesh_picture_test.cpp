@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 #include <random>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -295,6 +296,17 @@ TEST_CASE("the automatic view shows a lamp near the things it lights, and the sa
     std::vector<radiosity::SceneObject> on_ground = things;
     on_ground.push_back(scenes::square("ground", {0, 0, -5}, within(40, 10'000), true));
     CHECK(radiosity::automatic_camera(scene_of(on_ground)).eye == alone.eye);
+    // The walls of a room are no grounds.
+    std::vector<radiosity::SceneObject> room{scenes::square("floor", {0, 0, -5}, 30.0, true),
+                                             scenes::square("top", {0, 0, 55}, 30.0, false)};
+    for (int k = 0; k < 4; ++k) {
+      const double turn = 0.5 * std::numbers::pi * k;
+      const glm::dvec3 out{30.0 * std::cos(turn), 30.0 * std::sin(turn), 25.0}, along{-out.y, out.x, 0.0}, up{0, 0, 30};
+      room.push_back(scenes::plate("wall" + std::to_string(k), {out - along - up, out - along + up, out + along + up, out + along - up}));
+    }
+    const radiosity::Camera whole = radiosity::automatic_camera(scene_of(room));
+    room.insert(room.end(), things.begin(), things.end());
+    CHECK(radiosity::automatic_camera(scene_of(room)).eye == whole.eye);
     // A sky that is one object with its ground.
     const double half = within(40, 10'000);
     on_ground.back() = scenes::object("sky", scenes::box({-half, -half, -5}, {half, half, half}), lamp, true);
