@@ -52,7 +52,7 @@ inline constexpr std::size_t samples_of_lamp = 256;
 inline constexpr double large_lamp = 0.25;
 inline constexpr std::size_t fine_samples = 4096;
 inline constexpr std::size_t most_fine = 4;
-// Of all lamps together, where they were joined; none has less than one round. Each is a small part of the light then, but for large ones.
+// Of all joined lamps together; none has less than one round. Each is a small part of the light, but for large ones.
 inline constexpr std::size_t samples_of_joined = 1024;
 
 // A rectangle around points of a plane with this normal.
@@ -179,14 +179,16 @@ HALFLIGHT_INLINE DirectLight::DirectLight(const raycast::Scene& objects, const s
       if (!is_black(e) && area[sheet] > 0.0) { candidates.push_back({{{s, {sheet}}}, e, brightest(e), area[sheet]}); }
     }
   }
-  std::size_t samples = detail::samples_of_lamp;
+  std::size_t samples = detail::samples_of_lamp;  // of those that are joined
+  const auto is_joined = [](const Candidate& c) { return c.parts.size() > 1 || c.parts[0].sheets.size() > 1; };
   if (limits.bodies && candidates.size() > limits.most) {
     candidates = join_alike(candidates, objects, limits.most);
-    const std::size_t lamps = std::min<std::size_t>(candidates.size(), limits.most);
+    const auto joined = std::count_if(candidates.begin(), candidates.end(), is_joined);
+    const std::size_t lamps = std::clamp<std::size_t>(static_cast<std::size_t>(joined), 1, limits.most);
     samples = std::clamp<std::size_t>(std::bit_floor(detail::samples_of_joined / lamps), 16, samples);
   }
   std::stable_sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) { return a.strength > b.strength; });
-  std::vector<bool> is_large, is_fine;  // by lamp
+  std::vector<bool> has_few, is_fine;  // by lamp
   std::size_t fine_ones = 0;
   double taken = 0.0;
   for (const Candidate& c : candidates) {
@@ -205,14 +207,14 @@ HALFLIGHT_INLINE DirectLight::DirectLight(const raycast::Scene& objects, const s
       }
     }
     lamps_.push_back(std::move(lamp));
-    is_large.push_back(large);
+    has_few.push_back(is_joined(c) && !large);
     is_fine.push_back(fine);
   }
   if (lamps_.empty()) { return; }
   take_bodies(surfaces);
   for (std::size_t k = 0; k < lamps_.size(); ++k) {
     Lamp& lamp = lamps_[k];
-    take_samples(lamp, is_large[k] ? detail::samples_of_lamp : samples, is_fine[k]);
+    take_samples(lamp, has_few[k] ? samples : detail::samples_of_lamp, is_fine[k]);
     lamp.behind.assign(objects.size(), false);
     const Facets::Facet& plane = lamp.facets.facets[0];
     for (std::uint32_t o = 0; o < bodies_.size() && lamp.flat; ++o) {
