@@ -16,9 +16,8 @@ namespace {
 std::string error_text(const std::optional<radiosity::ErrorEstimate>& error) {
   if (!error) { return "not measured"; }
   if (error->high == 0.0) { return "none"; }
-  // Lost in the noise of path tracing, or small and not known any closer.
-  const bool small = error->high <= radiosity::negligible_error && radiosity::is_wide(*error);
-  if (error->low == 0.0 || small) { return "below " + percent(error->high); }
+  // Lost in the noise of path tracing, or not known to within its own size.
+  if (radiosity::is_wide(*error)) { return "below " + percent(error->high); }
   return percent(error->relative_l2) + "  (" + percent(error->low) + " to " + percent(error->high) + ")";
 }
 

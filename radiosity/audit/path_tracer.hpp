@@ -63,7 +63,7 @@ class PathTracer {
       const auto hit = first_front(from.position, direction, object, sheet, rays);
       return hit ? std::optional{at(*hit, from.position, direction)} : std::nullopt;
     };
-    emitters_.guide(lamp_photons(surfaces, emission, meet), objects.diameter());
+    emitters_.guide(lamp_photons(surfaces, emission, meet, objects.ray_work()), objects.diameter());
   }
 
   // Largest reflectance of the scene.

@@ -63,8 +63,9 @@ struct ShiningTriangle {
 }  // namespace detail
 
 HALFLIGHT_INLINE std::vector<PhotonGrid::Photon> lamp_photons(const std::vector<Surface>& surfaces, const std::vector<Color>& emission,
-                                                              const MeetFront& meet) {
-  constexpr std::size_t of_a_lamp = 512, least = 1u << 13, most = 1u << 15;
+                                                              const MeetFront& meet, double price) {
+  constexpr std::size_t of_a_lamp = 512, fewest = 512, least = 1u << 13, most = 1u << 15;
+  constexpr double most_microseconds = 3e4;  // about what a small audit takes
   std::vector<detail::ShiningTriangle> triangles = detail::shining_triangles(surfaces, emission);
   const auto source = [](const detail::ShiningTriangle& triangle) { return triangle.of->first_surface + triangle.sheet; };
   std::map<std::uint32_t, double> power_of;
@@ -79,7 +80,9 @@ HALFLIGHT_INLINE std::vector<PhotonGrid::Photon> lamp_photons(const std::vector<
   };
   double until = 0.0;
   for (detail::ShiningTriangle& triangle : triangles) { triangle.until = until += probability(triangle); }
-  const auto count = static_cast<std::uint32_t>(std::clamp(of_a_lamp * power_of.size(), least, most));
+  const auto affordable = static_cast<std::size_t>(most_microseconds / std::max(price, most_microseconds / most));
+  const auto count =
+      static_cast<std::uint32_t>(std::min(std::clamp(of_a_lamp * power_of.size(), least, most), std::max(fewest, affordable)));
   const Sobol4 sequence{8};
   std::vector<PhotonGrid::Photon> photons;
   for (std::uint32_t i = 0; i < count; ++i) {

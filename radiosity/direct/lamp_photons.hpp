@@ -24,9 +24,10 @@ using MeetFront = std::function<std::optional<raycast::SurfacePoint>(const rayca
 
 // `surfaces`: the boundaries of all objects, in their order; `emission`: exitance of each input surface. The source of a photon is the
 // input surface that it comes from. Half of them are sent by power; half by surface, for a dim lamp may be all that its room has. None
-// where fewer than two surfaces shine: then there is nothing to choose.
+// where fewer than two surfaces shine: then there is nothing to choose. `price`: of a ray, in microseconds (raycast::Scene::ray_work):
+// where rays are dear, as among curved solids cut out of each other, photons are fewer.
 [[nodiscard]] std::vector<PhotonGrid::Photon> lamp_photons(const std::vector<Surface>& surfaces, const std::vector<Color>& emission,
-                                                           const MeetFront& meet);
+                                                           const MeetFront& meet, double price);
 
 }  // namespace radiosity
 

@@ -81,7 +81,7 @@ HALFLIGHT_INLINE PhotonGrid FinalGather::send_lamp_photons(const std::vector<Sur
     const auto hit = direct_.objects().closest(ray, lift > 0.0 ? raycast::no_object : object, sheet);
     return hit && hit->front ? std::optional{met(*hit, ray).point} : std::nullopt;
   };
-  std::vector<PhotonGrid::Photon> photons = lamp_photons(boundaries, emission, meet);
+  std::vector<PhotonGrid::Photon> photons = lamp_photons(boundaries, emission, meet, direct_.objects().ray_work());
   for (PhotonGrid::Photon& photon : photons) {
     photon.source = static_cast<std::uint32_t>(direct_.lamp_of(photon.source) - direct_.lamps().data());
   }

@@ -103,7 +103,7 @@ TEST_CASE("the report has its documented keys") {
   CHECK(apps::to_text(report).find("not measured") != std::string::npos);
 }
 
-TEST_CASE("an error is told with its interval, or as below its upper end where noise hides it, or where it is small and not known closer") {
+TEST_CASE("an error is told with its interval, or as below its upper end where it is not known to within its own size") {
   const auto leaves = [](const radiosity::ErrorEstimate& error) {
     apps::Report report;
     report.audit.leaf_error = error;
@@ -115,7 +115,8 @@ TEST_CASE("an error is told with its interval, or as below its upper end where n
   CHECK(leaves({0.02, 0.001, 0.018, 0.022}) == "2 %  (1.8 % to 2.2 %)");
   CHECK(leaves({0.002, 0.0001, 0.0018, 0.0022}) == "0.2 %  (0.18 % to 0.22 %)");
   CHECK(leaves({0.002, 0.0006, 0.0008, 0.0032}) == "below 0.32 %");
-  CHECK(leaves({0.02, 0.006, 0.008, 0.032}) == "2 %  (0.8 % to 3.2 %)");
+  CHECK(leaves({0.02, 0.004, 0.012, 0.028}) == "2 %  (1.2 % to 2.8 %)");
+  CHECK(leaves({0.02, 0.006, 0.008, 0.032}) == "below 3.2 %");
   CHECK(leaves({0.02, 0.02, 0.0, 0.04}) == "below 4 %");
   CHECK(leaves({0.0, 0.0, 0.0, 0.0}) == "none");
 }

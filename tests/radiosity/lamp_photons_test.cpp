@@ -97,7 +97,8 @@ struct NearFloor {
     }
     const std::vector<radiosity::Surface> boundaries = scenes::boundaries(lookup.objects());
     direct = radiosity::DirectLight{lookup.objects(), boundaries, emission, {.bodies = true}};
-    std::vector<PhotonGrid::Photon> landed = radiosity::lamp_photons(boundaries, emission, met_among(lookup.objects()));
+    std::vector<PhotonGrid::Photon> landed =
+        radiosity::lamp_photons(boundaries, emission, met_among(lookup.objects()), lookup.objects().ray_work());
     for (PhotonGrid::Photon& photon : landed) {
       photon.source = static_cast<std::uint32_t>(direct.lamp_of(photon.source) - direct.lamps().data());
     }
