@@ -62,6 +62,7 @@ HALFLIGHT_INLINE bool refine_to(double wanted, std::uint64_t most, const MeshErr
   if (!refiner.gather()) { return false; }
   double goal = 0.9 * wanted;
   double last = std::numeric_limits<double>::infinity();  // measured error
+  int rounds_without_gain = 0;
   for (;;) {
     const bool wants_more = refiner.error() > goal;
     const bool split = wants_more && refiner.split(goal, most) > 0;
@@ -79,9 +80,10 @@ HALFLIGHT_INLINE bool refine_to(double wanted, std::uint64_t most, const MeshErr
     refinement.faces_after = mesh.faces.size();
     refined = std::move(mesh);
     refinement.met = refinement.after.relative_l2 <= wanted;
-    const bool hopeless = refinement.after.relative_l2 > 0.95 * last;  // what is left is not between the corners
+    // What is left is not between the corners, or in few places that the points of the faces have missed: then a finer mesh may meet them.
+    rounds_without_gain = refinement.after.relative_l2 > 0.95 * last ? rounds_without_gain + 1 : 0;
     last = refinement.after.relative_l2;
-    if (refinement.met || wants_more || hopeless || !(refiner.error() > 0.0)) { return true; }
+    if (refinement.met || wants_more || rounds_without_gain == 2 || !(refiner.error() > 0.0)) { return true; }
     goal = std::min(0.8 * goal, 0.9 * refiner.error());
   }
 }
