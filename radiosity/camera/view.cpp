@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <numbers>
 #include <vector>
 
@@ -58,11 +59,11 @@ namespace detail {
 // All of the scene but for what would make the rest small in the picture:
 // - lamps far outside, as a sky behind windows, when all else is less than half as large;
 // - flat grounds more than three times as wide as what stands on them;
-// - skies that are one object with their ground, of that width.
+// - skies that are one object with their ground, of that width: most of their sheets shine, as those of a room with a lamp in it do not.
 HALFLIGHT_INLINE raycast::Box worth_seeing(const Scene& scene) {
   struct Thing {
     raycast::Box box;
-    bool shines = false;  // in part
+    bool sky = false;
   };
   const auto shines = [&](std::uint32_t material) { return !is_black(scene.materials[material].emission); };
   const auto add = [](raycast::Box& to, const raycast::Box& box) {
@@ -74,7 +75,8 @@ HALFLIGHT_INLINE raycast::Box worth_seeing(const Scene& scene) {
   for (const SceneObject& object : scene.objects) {
     if (std::all_of(object.material.begin(), object.material.end(), shines)) { continue; }
     const raycast::Box box = placed_bounds(*object.shape, object.placement);
-    things.push_back({box, std::any_of(object.material.begin(), object.material.end(), shines)});
+    const auto shining = std::count_if(object.material.begin(), object.material.end(), shines);
+    things.push_back({box, 2 * shining > std::ssize(object.material)});
     add(rest, box);
   }
   std::stable_sort(things.begin(), things.end(), [](const Thing& a, const Thing& b) { return a.box.diameter() < b.box.diameter(); });
@@ -83,7 +85,7 @@ HALFLIGHT_INLINE raycast::Box worth_seeing(const Scene& scene) {
     constexpr double thin = 1e-6, wider = 3.0;
     const double width = thing.box.diameter();
     const bool ground = thing.box.size().z < thin * width && thing.box.hi.z <= inner.lo.z + thin * width;
-    return width > wider * inner.diameter() && (ground || thing.shines);
+    return width > wider * inner.diameter() && (ground || thing.sky);
   };
   for (auto thing = things.begin(); thing != things.end(); ++thing) {
     if (!inner.empty() && std::all_of(thing, things.end(), around_inner)) {

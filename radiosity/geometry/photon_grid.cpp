@@ -22,8 +22,8 @@ namespace detail {
 
 inline constexpr std::uint32_t photon_grids = 4;          // each with cells twice as wide as those before
 inline constexpr double finest_photon_cell = 1.0 / 64.0;  // of the diameter of the scene
-inline constexpr double most_trust = 0.875;
-inline constexpr std::size_t least_photons = 16;  // in a cell that is asked
+inline constexpr double most_trust = 0.875;               // the rest is for sources that shine past an edge
+inline constexpr std::size_t least_photons = 16;          // in a cell that is asked
 
 [[nodiscard]] HALFLIGHT_INLINE std::uint64_t photon_cell(std::uint32_t grid, double width, const glm::dvec3& position,
                                                          const glm::dvec3& normal) {

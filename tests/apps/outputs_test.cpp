@@ -338,3 +338,10 @@ TEST_CASE("names of files that are no text make valid JSON") {
   CHECK(json::parse(run.out)["files"][0].string() == "out\xef\xbf\xbd.obj");
   CHECK(place.has("out\xfe.obj"));
 }
+
+TEST_CASE("a folder that cannot be made is told with the reason") {
+  const Place place;
+  place.write("there", "");
+  CHECK(place.run("figures -o there").err == "halflight: cannot make the folder there: Not a directory\n");
+  CHECK(place.run("figures -o there/in").err == "halflight: cannot make the folder there/in: Not a directory\n");
+}

@@ -238,7 +238,7 @@ TEST_CASE("the sphere of a point of indirect light ends before what few of its r
       const double seen = 0.5 * (1.0 - below / std::hypot(below, width)), nearest = found.nearest / solution.frame.scale;
       CAPTURE(width, below, seen, nearest);
       CHECK(nearest > 0.99 * below);
-      // 1 % of 512 rays; of as many even ones that see twice as much, by far more than that meet it. The eave is some widths long.
+      // Five of 512 rays are asked for; of even ones fifteen or more meet an eave of which so much is seen, a third of them straight above.
       if (seen > 0.03) { CHECK(nearest < 1.5 * std::hypot(below, width)); }
       const auto point = radiosity::indirect_point(found, {0, 0}, place, place.point.position + glm::dvec3{-1, 0, 0}, 0.2 * found.nearest);
       CHECK(point.radius <= 0.76 * found.nearest);

@@ -80,6 +80,19 @@ Spread spread_of(int count, const Value& value) {
   return {sum, deviation, deviation / std::sqrt(count - 1.0)};
 }
 
+// Path-traced radiosity at the point x of the floor, a sheet of the first object, by paths of at most so many reflections.
+Spread path_traced(const radiosity::Scene& scene, const glm::dvec3& x, std::uint32_t sheet, std::uint64_t seed, std::uint32_t most) {
+  const auto prepared = radiosity::prepare(scene);
+  REQUIRE(prepared.prepared);
+  const radiosity::Prepared& p = *prepared.prepared;
+  const radiosity::PathTracer tracer{scene, p.objects, p.surfaces};
+  return spread_of(20'000, [&](std::uint64_t k) {
+    radiosity::Random numbers{seed, k};
+    std::uint64_t rays = 0;
+    return tracer.radiosity((x - p.frame.centre) * p.frame.scale, {0, 0, 1}, 0, sheet, numbers, rays, most).all.x;
+  });
+}
+
 // What near light at the point x of the floor, the first object, needs.
 struct NearFloor {
   radiosity::Scene scene;
@@ -166,19 +179,12 @@ TEST_CASE("path tracing: the lamps of other rooms, however bright, add next to n
   Spread found[2];
   for (const bool many : {false, true}) {
     const radiosity::Scene scene = row_of_rooms(many ? 9 : 1, others);
-    const auto prepared = radiosity::prepare(scene);
-    REQUIRE(prepared.prepared);
-    const radiosity::Prepared& p = *prepared.prepared;
-    const radiosity::PathTracer tracer{scene, p.objects, p.surfaces};
-    found[many] = spread_of(20'000, [&](std::uint64_t k) {
-      radiosity::Random numbers{seed, k, many};
-      std::uint64_t rays = 0;
-      return tracer.radiosity((x - p.frame.centre) * p.frame.scale, {0, 0, 1}, 0, 4, numbers, rays).all.x;
-    });
+    found[many] = path_traced(scene, x, 4, seed + many, 1000);
   }
   CAPTURE(found[0].mean, found[1].mean, found[0].deviation, found[1].deviation);
   CHECK(std::abs(found[0].mean - found[1].mean) < 5.0 * std::hypot(found[0].error, found[1].error));
-  // An emitter that is chosen with the probability p adds a variance of 1 / p - 1 of the square of its light.
+  // An emitter that is chosen with the probability p adds a variance of 1 / p - 1 of the square of its light. Where a cell of photons
+  // reaches into the next room p is less than 7/8: found up to .45 of the mean, by power over squared distance alone 1.3 to 2.6.
   CHECK(found[1].deviation < std::hypot(found[0].deviation, 0.8 * found[0].mean));
 }
 
@@ -200,7 +206,7 @@ TEST_CASE("near light: the lamps of other rooms, however bright, add next to no 
   }
   CAPTURE(found[0].mean, found[1].mean, found[0].deviation, found[1].deviation);
   CHECK(std::abs(found[0].mean - found[1].mean) < 0.1 * found[0].mean);
-  CHECK(found[1].deviation < 2.0 * found[0].deviation);
+  CHECK(found[1].deviation < 2.0 * found[0].deviation);  // up to 1.6; by strength alone 4.8 to 46
 }
 
 // So many that they are joined in groups; above a black ceiling there are as many, which light nothing below.
@@ -253,20 +259,12 @@ TEST_CASE("path tracing: a lamp of few triangles is as bright as its form factor
     faces.push_back({foot(k), foot(k + 1), {0.0, 0.0, height}});
     scene.objects.push_back(scenes::object("face" + std::to_string(k), scenes::polygon(faces.back()), 1));
   }
-  const auto prepared = radiosity::prepare(scene);
-  REQUIRE(prepared.prepared);
-  const radiosity::Prepared& p = *prepared.prepared;
-  const radiosity::PathTracer tracer{scene, p.objects, p.surfaces};
   for (int i = 0; i < 12; ++i) {
     const double turn = 2.0 * std::numbers::pi * random.uniform(), away = width * 1.2 * std::pow(6.0, random.uniform());
     const glm::dvec3 x{away * std::cos(turn), away * std::sin(turn), 0.0};
     double truth = 0.0;
     for (const auto& face : faces) { truth += 0.5 * radiosity::point_to_polygon(x, {0, 0, 1}, face); }
-    const Spread found = spread_of(20'000, [&](std::uint64_t k) {
-      radiosity::Random numbers{seed, k, static_cast<std::uint64_t>(i)};
-      std::uint64_t rays = 0;
-      return tracer.radiosity((x - p.frame.centre) * p.frame.scale, {0, 0, 1}, 0, 0, numbers, rays, 1).all.x;
-    });
+    const Spread found = path_traced(scene, x, 0, seed + static_cast<std::uint64_t>(i), 1);
     CAPTURE(seed, count, width, height, x.x, x.y, truth, found.mean, found.error);
     CHECK(std::abs(found.mean - truth) < 5.0 * found.error);
   }
@@ -282,16 +280,8 @@ TEST_CASE("path tracing: where lamps are more than photons can tell apart, these
   for (int k = 0; k < 1600; ++k) {
     scene.objects.push_back(scenes::square("lamp" + std::to_string(k), {k % 40 - 19.5, k / 40 - 19.5, 3.0}, 0.1, false, 1));
   }
-  const auto prepared = radiosity::prepare(scene);
-  REQUIRE(prepared.prepared);
-  const radiosity::Prepared& p = *prepared.prepared;
-  const radiosity::PathTracer tracer{scene, p.objects, p.surfaces};
   const glm::dvec3 x{20.0 * random.uniform() - 10.0, 20.0 * random.uniform() - 10.0, 0.0};
-  const Spread found = spread_of(20'000, [&](std::uint64_t k) {
-    radiosity::Random numbers{seed, k};
-    std::uint64_t rays = 0;
-    return tracer.radiosity((x - p.frame.centre) * p.frame.scale, {0, 0, 1}, 0, 0, numbers, rays, 1).all.x;
-  });
+  const Spread found = path_traced(scene, x, 0, seed, 1);
   CAPTURE(seed, x.x, x.y, found.mean, found.deviation);
   CHECK(found.deviation < 2.5 * found.mean);  // the square root of 3.3 with as much trust as 16 photons deserve, of 11.6 with full trust
 }

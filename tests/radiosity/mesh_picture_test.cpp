@@ -307,6 +307,13 @@ TEST_CASE("the automatic view shows a lamp near the things it lights, and the sa
     const radiosity::Camera whole = radiosity::automatic_camera(scene_of(room));
     room.insert(room.end(), things.begin(), things.end());
     CHECK(radiosity::automatic_camera(scene_of(room)).eye == whole.eye);
+    // Nor is one that is a single object with a lamp in it.
+    radiosity::SceneObject hall = scenes::object("hall", scenes::box({-30, -30, -5}, {30, 30, 55}), wall, true);
+    hall.material = {wall, wall, wall, wall, wall, lamp};
+    std::vector<radiosity::SceneObject> in_hall{hall};
+    const radiosity::Camera of_hall = radiosity::automatic_camera(scene_of(in_hall));
+    in_hall.insert(in_hall.end(), things.begin(), things.end());
+    CHECK(radiosity::automatic_camera(scene_of(in_hall)).eye == of_hall.eye);
     // A sky that is one object with its ground.
     const double half = within(40, 10'000);
     on_ground.back() = scenes::object("sky", scenes::box({-half, -half, -5}, {half, half, half}), lamp, true);

@@ -306,7 +306,7 @@ TEST_CASE("work of a ray: more where it passes more, behind its end nothing coun
     const double to_first = scene.ray_work({ray.origin, ray.direction / (2.0 * boxes + 1.0)});
     CAPTURE(boxes, through, past, to_first);
     CHECK(through == portable.ray_work(ray));
-    CHECK(through >= past + 0.2 * boxes);
+    CHECK(through >= past + 0.25 * boxes);  // the bounds and the planes of each: .28 us
     CHECK((boxes == 1 || to_first < through));
   }
 }
