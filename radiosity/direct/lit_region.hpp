@@ -46,6 +46,8 @@ struct LampPart {
   double factor = 0.0;
 };
 
+struct Umbra;
+
 }  // namespace detail
 
 class LitRegion {
@@ -109,6 +111,12 @@ class LitRegion {
   [[nodiscard]] double part_above(Reach& reach, std::size_t p, const glm::dvec3& x, const glm::dvec3& n);
   // Takes what may stand between as faces and outlines; false when some of it is neither.
   [[nodiscard]] bool take_bodies(Reach& reach, const raycast::PatchShape& shape) const;
+  // Where faces and outlines are many: leaves out those that others hide from all of the region. In a house seen from outside these are most
+  // of what stands in it, and each is held against all pieces of the lamp that the others leave.
+  void leave_out_hidden(Reach& reach, std::span<const glm::dvec3> contour);
+  // Without cones where it is not known.
+  [[nodiscard]] detail::Umbra umbra(const Reach::Outline& outline, std::span<const glm::dvec3> region);
+  [[nodiscard]] detail::Umbra umbra(const Blocker& face, std::span<const glm::dvec3> region) const;
   // The cone from x over a convex body; empty when x lies on the body's surface.
   void make_cone(const Reach::Outline& outline, const glm::dvec3& x);
   // The form factor of what faces and outlines leave of the lamp, and its convex parts.
@@ -160,4 +168,5 @@ class LitRegion {
 #ifdef HALFLIGHT_HEADER_ONLY
 #include <radiosity/direct/lit_region.cpp>
 #include <radiosity/direct/lit_region_segments.cpp>
+#include <radiosity/direct/lit_region_shadows.cpp>
 #endif

@@ -1,0 +1,275 @@
+// SPDX-License-Identifier: MIT
+#include <radiosity/direct/lit_region.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+#include <raycast/inline.hpp>
+#include <raycast/scene.hpp>
+#include <raycast/shaft.hpp>
+#include <raycast/tolerances.hpp>
+
+#include <radiosity/direct/direct_light.hpp>
+#include <radiosity/direct/facets.hpp>
+#include <radiosity/support/random.hpp>
+#include <radiosity/visibility/polygon_shaft.hpp>
+#include <radiosity/visibility/shadow.hpp>
+
+// LitRegion: what stands between a region and a flat lamp, as shadows that are cut out of the lamp.
+
+namespace radiosity {
+
+HALFLIGHT_INLINE bool LitRegion::take_bodies(Reach& reach, const raycast::PatchShape& shape) const {
+  const DirectLight::Lamp& lamp = light_->lamps_[reach.lamp];
+  const raycast::Scene& objects = *light_->objects_;
+  std::vector<std::uint32_t> candidates;
+  constexpr std::size_t most_objects = 64;
+  if (!reach.list.known() && light_->bodies_.size() > most_objects) { return false; }
+  if (reach.list.known()) {
+    for (const std::uint32_t s : reach.list.shapes()) { candidates.push_back(light_->whole(objects.object_of(s))); }
+  } else {  // few objects of many faces
+    for (std::uint32_t o = 0; o < light_->bodies_.size(); ++o) {
+      if (!objects.left_out(o)) { candidates.push_back(o); }
+    }
+  }
+  if (!reach.list.rooms_clear()) { candidates.insert(candidates.end(), light_->rooms_.begin(), light_->rooms_.end()); }
+  std::sort(candidates.begin(), candidates.end());
+  candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
+  const double slack = light_->slack_;
+  // With a bulge the contour says too little, and all candidates are taken.
+  std::vector<Shaft> shaft;
+  if (shape.bulge == 0.0) { shaft.emplace_back(shape.contour, lamp.corners, slack + lift_); }
+  const auto misses = [&](std::span<const glm::dvec3> corners) { return !shaft.empty() && shaft[0].misses(corners); };
+  constexpr std::size_t most_faces = 128, most_of_stand_ins = 64;  // past these segments cost less
+  bool all = true;
+  for (const std::uint32_t o : candidates) {
+    const DirectLight::Body& body = light_->bodies_[o];
+    if (body.convex && o == owner_) { continue; }
+    if (body.facets.empty()) {
+      all = false;
+      continue;
+    }
+    if (body.convex && body.closed && !lamp.behind[o]) {
+      if (shaft.empty() || !shaft[0].misses(body.bounds)) {
+        Reach::Outline outline;
+        outline.facets = &body.facets;
+        const auto& facets = body.facets.facets;
+        for (std::uint32_t f = 1; f < facets.size(); ++f) {
+          if (facets[f].height(centre_) > facets[outline.nearest].height(centre_)) { outline.nearest = f; }
+        }
+        const auto side = [&](std::uint32_t f) {  // 1: all of the region is before the facet, -1: behind it
+          const double height = facets[f].height(centre_);
+          return height > radius_ + slack ? 1 : height < -radius_ - slack ? -1 : 0;
+        };
+        for (const Facets::Edge& edge : body.facets.edges) {
+          const int left = side(edge.left);
+          if (left != 0 && edge.right != Facets::none && side(edge.right) == left) { continue; }
+          outline.corners.push_back(edge.a);
+          outline.corners.push_back(edge.b);
+        }
+        const auto before = [](const glm::dvec3& a, const glm::dvec3& b) {
+          return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z;
+        };
+        std::sort(outline.corners.begin(), outline.corners.end(), before);
+        outline.corners.erase(std::unique(outline.corners.begin(), outline.corners.end()), outline.corners.end());
+        for (const glm::dvec3& p : outline.corners) { outline.centre += p / static_cast<double>(outline.corners.size()); }
+        for (const glm::dvec3& p : outline.corners) { outline.radius = std::max(outline.radius, glm::length(p - outline.centre)); }
+        reach.outlines.push_back(std::move(outline));
+      }
+      continue;
+    }
+    if (!body.exact && (body.convex ? body.closed : !(body.lift > 0.0))) {
+      all = false;
+      continue;
+    }
+    const std::size_t before = reach.faces.size();
+    for (const Facets::Facet& facet : body.facets.facets) {
+      if (body.closed && facet.height(centre_) <= slack - radius_) { continue; }  // its back, behind its fronts
+      if (misses(facet.contour)) { continue; }
+      reach.faces.push_back({facet.contour, facet.normal});
+    }
+    if (reach.faces.size() > (body.exact ? most_faces : most_of_stand_ins)) {
+      reach.faces.resize(before);
+      all = false;
+    }
+  }
+  return all;
+}
+
+namespace detail {
+
+// What lies behind a convex body, or face, for all points of a region: within all `cones`, one from each corner of the region over the body,
+// and behind all `fronts` that a point of the region may be before. A segment from each corner to a place there meets the body; then so do
+// those from the points between the corners, because the body is convex.
+struct Umbra {
+  std::vector<HalfSpace> cones, fronts;
+
+  [[nodiscard]] bool holds(std::span<const glm::dvec3> corners) const {
+    const auto within = [&](const HalfSpace& plane) {
+      return std::all_of(corners.begin(), corners.end(), [&](const glm::dvec3& p) { return plane.height(p) >= 0.0; });
+    };
+    return !cones.empty() && std::all_of(fronts.begin(), fronts.end(), within) && std::all_of(cones.begin(), cones.end(), within);
+  }
+};
+
+}  // namespace detail
+
+HALFLIGHT_INLINE detail::Umbra LitRegion::umbra(const Reach::Outline& outline, std::span<const glm::dvec3> region) {
+  detail::Umbra umbra;
+  const auto& facets = outline.facets->facets;
+  constexpr std::size_t most_facets = 32;  // walls and furniture; past these the question costs more than it saves
+  if (facets.size() > most_facets || !(facets[outline.nearest].height(centre_) > radius_ + light_->slack_)) { return {}; }
+  for (const Facets::Facet& facet : facets) {
+    if (facet.height(centre_) > -radius_) { umbra.fronts.push_back({facet.contour[0], -facet.normal}); }
+  }
+  for (const glm::dvec3& x : region) {
+    make_cone(outline, x);
+    if (cone_.size() < 3) { return {}; }
+    umbra.cones.insert(umbra.cones.end(), cone_.begin(), cone_.end());
+  }
+  return umbra;
+}
+
+HALFLIGHT_INLINE detail::Umbra LitRegion::umbra(const Blocker& face, std::span<const glm::dvec3> region) const {
+  detail::Umbra umbra;
+  const double height = glm::dot(face.normal, centre_ - face.contour[0]);
+  if (!(std::abs(height) > radius_ + light_->slack_)) { return {}; }
+  umbra.fronts.push_back({face.contour[0], height > 0.0 ? -face.normal : face.normal});
+  for (const glm::dvec3& x : region) {
+    for (std::size_t i = 0; i < face.contour.size(); ++i) {
+      const glm::dvec3 a = face.contour[i] - x, b = face.contour[i + 1 < face.contour.size() ? i + 1 : 0] - x;
+      umbra.cones.push_back({x, height > 0.0 ? glm::cross(b, a) : glm::cross(a, b)});
+    }
+  }
+  return umbra;
+}
+
+HALFLIGHT_INLINE void LitRegion::leave_out_hidden(Reach& reach, std::span<const glm::dvec3> contour) {
+  constexpr std::size_t few = 8;           // are cut out sooner than this is asked
+  constexpr std::size_t most_umbrae = 16;  // of those that look largest
+  if (reach.faces.size() + reach.outlines.size() <= few) { return; }
+  std::vector<glm::dvec3> region;
+  for (const glm::dvec3& p : contour) {
+    if (std::find(region.begin(), region.end(), p) == region.end()) { region.push_back(p); }
+  }
+  struct Shadow {
+    double size = 0.0;  // about that of the solid angle
+    const Blocker* face = nullptr;
+    const Reach::Outline* outline = nullptr;
+  };
+  std::vector<Shadow> shadows;
+  for (const Blocker& face : reach.faces) {
+    double size = 0.0;
+    for (std::size_t i = 1; i + 1 < face.contour.size(); ++i) {
+      const glm::dvec3 a = face.contour[0] - centre_, b = face.contour[i] - centre_, c = face.contour[i + 1] - centre_;
+      const double r2 = glm::dot(a + b + c, a + b + c) / 9.0;
+      size += 0.5 * std::abs(glm::dot(a, glm::cross(b, c))) / (r2 * std::sqrt(r2));
+    }
+    shadows.push_back({size, &face, nullptr});
+  }
+  for (const Reach::Outline& outline : reach.outlines) {
+    const glm::dvec3 d = outline.centre - centre_;
+    shadows.push_back({outline.radius * outline.radius / glm::dot(d, d), nullptr, &outline});
+  }
+  std::stable_sort(shadows.begin(), shadows.end(), [](const Shadow& a, const Shadow& b) { return a.size > b.size; });
+  std::vector<char> hidden(shadows.size(), 0);
+  for (std::size_t i = 0; i < std::min(shadows.size(), most_umbrae); ++i) {
+    if (hidden[i]) { continue; }
+    const detail::Umbra umbra = shadows[i].face ? this->umbra(*shadows[i].face, region) : this->umbra(*shadows[i].outline, region);
+    for (std::size_t k = i + 1; k < shadows.size(); ++k) {
+      const auto corners = shadows[k].face ? shadows[k].face->contour : std::span<const glm::dvec3>{shadows[k].outline->corners};
+      if (!hidden[k]) { hidden[k] = umbra.holds(corners) ? 1 : 0; }
+    }
+  }
+  std::vector<Blocker> faces;
+  std::vector<Reach::Outline> outlines;
+  for (std::size_t k = 0; k < shadows.size(); ++k) {
+    if (hidden[k]) { continue; }
+    if (shadows[k].face) {
+      faces.push_back(*shadows[k].face);
+    } else {
+      outlines.push_back(*shadows[k].outline);
+    }
+  }
+  reach.faces = std::move(faces);
+  reach.outlines = std::move(outlines);
+}
+
+// The convex hull of the corners as they are seen from x (Andrew 1979): so it does not matter how a curved body was cut into facets.
+HALFLIGHT_INLINE void LitRegion::make_cone(const Reach::Outline& outline, const glm::dvec3& x) {
+  cone_.clear();
+  const auto& facets = outline.facets->facets;
+  const Facets::Facet* plane = &facets[outline.nearest];
+  if (!(plane->height(x) > light_->slack_)) {
+    plane = &*std::max_element(facets.begin(), facets.end(), [&](const auto& a, const auto& b) { return a.height(x) < b.height(x); });
+    if (!(plane->height(x) > light_->slack_)) { return; }
+  }
+  const glm::dvec3 axis = -plane->normal;  // all corners lie ahead
+  const auto [s, t] = orthonormal(axis);
+  projected_.clear();
+  for (const glm::dvec3& corner : outline.corners) {
+    const glm::dvec3 d = corner - x;
+    const double ahead = std::max(glm::dot(d, axis), light_->slack_);
+    projected_.push_back({glm::dot(d, s) / ahead, glm::dot(d, t) / ahead, &corner});
+  }
+  std::sort(projected_.begin(), projected_.end(),
+            [](const Projected& a, const Projected& b) { return a.s != b.s ? a.s < b.s : a.t < b.t; });
+  const auto turns_right = [](const Projected& a, const Projected& b, const Projected& c) {
+    return !((b.s - a.s) * (c.t - a.t) - (b.t - a.t) * (c.s - a.s) > 0.0);
+  };
+  hull_.clear();
+  const auto half = [&](auto first, auto last) {
+    const std::size_t base = hull_.size();
+    for (; first != last; ++first) {
+      while (hull_.size() >= base + 2 && turns_right(hull_[hull_.size() - 2], hull_.back(), *first)) { hull_.pop_back(); }
+      hull_.push_back(*first);
+    }
+    hull_.pop_back();  // it begins the other half
+  };
+  half(projected_.begin(), projected_.end());
+  half(projected_.rbegin(), projected_.rend());
+  for (std::size_t i = 0; i < hull_.size(); ++i) {
+    const glm::dvec3 a = *hull_[i].corner - x, b = *hull_[i + 1 < hull_.size() ? i + 1 : 0].corner - x, across = glm::cross(a, b);
+    // Of two that are seen in one place, as those of an edge seen from its end, there is no plane.
+    constexpr double least = raycast::tol_edge * raycast::tol_edge;
+    if (glm::dot(across, across) > least * glm::dot(a, a) * glm::dot(b, b)) { cone_.push_back({x, across}); }
+  }
+}
+
+HALFLIGHT_INLINE double LitRegion::cut(const Reach& reach, const glm::dvec3& x, const glm::dvec3& n, std::vector<detail::LampPart>* left) {
+  const DirectLight::Lamp& lamp = light_->lamps_[reach.lamp];
+  double sum = 0.0;
+  for (std::uint32_t f = 0; f < lamp.facets.facets.size(); ++f) {
+    const Facets::Facet& facet = lamp.facets.facets[f];
+    if (!(facet.height(x) > light_->slack_)) { continue; }
+    ShadowedTarget target{facet.contour, facet.normal, {}, light_->slack_};
+    target.look(x, n);
+    for (const Blocker& face : reach.faces) {
+      if (target.hidden()) { break; }
+      target.hide(face);
+    }
+    for (const Reach::Outline& outline : reach.outlines) {
+      if (target.hidden()) { break; }
+      if (target.misses(outline.centre, outline.radius)) { continue; }
+      make_cone(outline, x);
+      if (!cone_.empty()) { target.hide(cone_); }
+    }
+    sum += target.form_factor();
+    if (left == nullptr) { continue; }
+    for (const Piece& piece : target.pieces()) {
+      detail::LampPart& part = left->emplace_back(detail::LampPart{{}, f, point_to_polygon(x, n, piece)});
+      for (const glm::dvec3& p : piece) { part.contour.push_back(p); }
+    }
+  }
+  return sum;
+}
+
+}  // namespace radiosity
