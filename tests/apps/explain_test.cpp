@@ -165,7 +165,7 @@ TEST_CASE("explain refuses what cannot be looked at whole, with the number and w
 
 TEST_CASE("explain tells the story in the terminal and writes a page of its own") {
   program::Place place;
-  const std::string scene = std::string("'") + HALFLIGHT_SCENES + "/three_plates.scene'";
+  const std::string scene = program::scene("three_plates");
   const program::Run run = place.run("explain " + scene + " --epsilon 0.2 --text -o page.html");
   INFO(run.err << run.out);
   CHECK(run.code == 0);
@@ -185,7 +185,7 @@ TEST_CASE("explain tells the story in the terminal and writes a page of its own"
 TEST_CASE("explain: every step of the page is drawn in a browser without an error") {
   if (!browser::found()) { SKIP_TEST("there is no chromium"); }
   program::Place place;
-  const std::string scene = std::string("'") + HALFLIGHT_SCENES + "/three_plates.scene'";
+  const std::string scene = program::scene("three_plates");
   REQUIRE(place.run("explain " + scene + " --epsilon 0.2 -o page.html").code == 0);
   const std::string dom = browser::elements(place, place.read("page.html"), R"(
     let drawn = 0;

@@ -28,6 +28,9 @@ inline std::string content(const fs::path& path) {
   return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
 
+// One of the example scenes, as an argument.
+inline std::string scene(const std::string& name) { return "'" HALFLIGHT_SCENES "/" + name + ".scene'"; }
+
 // A folder of the test's own; the program runs in it.
 class Place {
  public:

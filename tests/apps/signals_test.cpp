@@ -23,8 +23,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::string scene_path(const std::string& name) { return "'" HALFLIGHT_SCENES "/" + name + ".scene'"; }
-
 // Writes a file in a process of its own that gets the signal as soon as the temporary is there; how it ended.
 int interrupted_write(const fs::path& folder, int signal, bool watched) {
   const ::pid_t child = ::fork();
@@ -64,8 +62,8 @@ TEST_CASE("a signal while a file is written: the file is whole or not there, and
 
 TEST_CASE("every command under every signal leaves no file that was not there, or all outputs with the best so far") {
   // Each works far longer than it is let.
-  const std::string commands[] = {"render " + scene_path("room") + " -o a.png --json a.json --epsilon 0.0005 --min-area 1e-7 --quiet",
-                                  "factors " + scene_path("primitives") + " --csv a.csv --error 1e-9", "stress --json a.json",
+  const std::string commands[] = {"render " + program::scene("room") + " -o a.png --json a.json --epsilon 0.0005 --min-area 1e-7 --quiet",
+                                  "factors " + program::scene("primitives") + " --csv a.csv --error 1e-9", "stress --json a.json",
                                   "euler --interactive -o a.svg < /dev/zero"};
   for (const std::string& command : commands) {
     for (const char* signal : {"INT", "TERM", "HUP"}) {
@@ -85,10 +83,10 @@ TEST_CASE("a limit on the size of files is an error of the write in every comman
   const Place place;
   place.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\n");
   place.write("a.euler", "h0 = make_segment\n");
-  const std::string commands[] = {"render " + scene_path("two_plates") + " --audit 0 --quiet --size 400x400 -o out.png",
-                                  "render " + scene_path("two_plates") + " --audit 0 --quiet --json out.png",
-                                  "factors " + scene_path("room") + " --error 0.1 --csv out.png",
-                                  "mesh " + scene_path("primitives") + " --json out.png", "euler a.euler -o out.html"};
+  const std::string commands[] = {"render " + program::scene("two_plates") + " --audit 0 --quiet --size 400x400 -o out.png",
+                                  "render " + program::scene("two_plates") + " --audit 0 --quiet --json out.png",
+                                  "factors " + program::scene("room") + " --error 0.1 --csv out.png",
+                                  "mesh " + program::scene("primitives") + " --json out.png", "euler a.euler -o out.html"};
   for (const std::string& command : commands) {
     for (const char* name : {"out.png", "out.html"}) { place.write(name, "old"); }
     const Run run = place.run(command, "ulimit -f 1; ");
@@ -104,8 +102,8 @@ TEST_CASE("a limit on the size of files is an error of the write in every comman
 TEST_CASE("a pipe that nobody reads any more ends a command quietly, whether or not the signal is ignored") {
   const Place place;
   for (const std::string& command :
-       {"info " + scene_path("room"), "mesh " + scene_path("room") + " --json", "factors " + scene_path("two_plates"),
-        "render " + scene_path("two_plates") + " --audit 0 --quiet", std::string("stress --list"), std::string("--help")}) {
+       {"info " + program::scene("room"), "mesh " + program::scene("room") + " --json", "factors " + program::scene("two_plates"),
+        "render " + program::scene("two_plates") + " --audit 0 --quiet", std::string("stress --list"), std::string("--help")}) {
     for (const char* trap : {"", "trap '' PIPE; "}) {
       const std::string line = "cd '" + place.path().string() + "' && { " + trap + "sleep 0.1; '" HALFLIGHT_PROGRAM "' " + command +
                                " 2>err; echo $? >code; } | true";
@@ -119,8 +117,8 @@ TEST_CASE("a pipe that nobody reads any more ends a command quietly, whether or 
 
 TEST_CASE("an output to a pipe that nobody reads any more is no fault") {
   const Place place;
-  for (const std::string& command : {"render " + scene_path("two_plates") + " --audit 0 --quiet --json -",
-                                     "factors " + scene_path("two_plates") + " --csv -", "explain " + scene_path("two_plates") + " -o -"}) {
+  for (const std::string& command : {"render " + program::scene("two_plates") + " --audit 0 --quiet --json -",
+                                     "factors " + program::scene("two_plates") + " --csv -", "explain " + program::scene("two_plates") + " -o -"}) {
     const std::string line =
         "cd '" + place.path().string() + "' && { sleep 0.1; '" HALFLIGHT_PROGRAM "' " + command + " 2>err; echo $? >code; } | true";
     REQUIRE(std::system(line.c_str()) == 0);
@@ -145,7 +143,7 @@ TEST_CASE("figures that are interrupted before the first leave no folder, and a 
 TEST_CASE("what cannot be said is a failure: a full device, a closed standard output") {
   const Place place;
   for (const std::string& command :
-       {"info " + scene_path("room"), "mesh " + scene_path("room"), "factors " + scene_path("two_plates"), std::string("--help")}) {
+       {"info " + program::scene("room"), "mesh " + program::scene("room"), "factors " + program::scene("two_plates"), std::string("--help")}) {
     for (const char* where : {" >/dev/full", " >&-"}) {
       const std::string line =
           "cd '" + place.path().string() + "' && '" HALFLIGHT_PROGRAM "' " + command + " 2>err" + where + "; echo $? >code";
