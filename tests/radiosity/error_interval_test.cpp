@@ -278,7 +278,7 @@ TEST_CASE("audit: of 240 intervals over 24 closed rooms with light to and fro at
     options.threads = 1;
     radiosity::Solution solution = scenes::solved(furnace, options);
     const double truth = spoil(solution.mesh, furnace, random);
-    const Held of_these = intervals_that_hold(furnace, truth, solution, 500, seeds);
+    const Held of_these = intervals_that_hold(furnace, truth, solution, 250, seeds);
     held += of_these.once;
     until_narrow += of_these.until_narrow;
   }
