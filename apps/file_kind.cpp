@@ -48,6 +48,9 @@ constexpr std::array<std::pair<std::string_view, const char*>, 20> signatures = 
     {"{"sv, "data (JSON)"},
 }};
 
+// Without the byte order mark with which some programs begin UTF-8.
+std::string_view without_mark(std::string_view text) { return text.substr(text.starts_with("\xef\xbb\xbf") ? 3 : 0); }
+
 // The words of the first lines that have any; comments are left out.
 class FirstLines {
  public:
@@ -89,6 +92,7 @@ bool begins_scene(std::string_view word, bool first) {
   return first ? !nearest(word, scene_file::statements()).empty() : contains(scene_file::statements(), word);
 }
 
+// As long as its header says.
 bool is_binary_stl(std::string_view bytes) {
   if (bytes.size() < 84) { return false; }
   const std::uint64_t triangles = bits_at(bytes, 80, 4);
@@ -120,7 +124,8 @@ std::string advice(const std::string& path, FileKind found, FileKind wanted) {
     return "give it a name that ends with the right letters (" + mesh_endings() + "), and it is read as a scene";
   }
   if (found == FileKind::mesh) { return "`halflight check " + path + "` examines it"; }
-  if (found == FileKind::stl) { return "convert it to " + mesh_endings() + ", which `halflight check` reads"; }
+  if (found == FileKind::stl && mesh_wanted) { return "`halflight mesh " + path + " -o OUT.obj` makes one of it"; }
+  if (found == FileKind::stl) { return "give it a name that ends with .stl, and it is read as a scene"; }
   if (found == FileKind::light) { return "`halflight render --light " + path + " -o OUT.png` draws a picture of it"; }
   if (found == FileKind::script) { return "`halflight euler " + path + "` plays it"; }
   if (found == FileKind::scene) {
@@ -133,8 +138,14 @@ std::string advice(const std::string& path, FileKind found, FileKind wanted) {
 
 }  // namespace
 
+bool is_stl_text(std::string_view bytes) {
+  FirstLines lines(without_mark(bytes));
+  std::array<std::string_view, 3> words;
+  return !is_binary_stl(bytes) && lines.next(words) && same_letters(words[0], "solid");
+}
+
 FileGuess guess_kind(std::string_view bytes) {
-  if (bytes.starts_with("\xef\xbb\xbf")) { bytes.remove_prefix(3); }
+  bytes = without_mark(bytes);
   if (bytes.find_first_not_of(blanks) == bytes.npos) { return {FileKind::empty, "empty", nullptr}; }
   if (bytes.starts_with("halflight light ")) { return {FileKind::light, "the light of a solved scene", nullptr}; }
   for (const auto& [start, what] : signatures) {
@@ -146,7 +157,7 @@ FileGuess guess_kind(std::string_view bytes) {
     for (const MeshFormat* const format : mesh_formats()) {
       if (format->begins(words, i == 0)) { return {FileKind::mesh, std::string(format->content), format}; }
     }
-    if (i == 0 && words[0] == "solid" && bytes.find("facet") != bytes.npos) { return {FileKind::stl, "a polygon mesh (STL)", nullptr}; }
+    if (i == 0 && is_stl_text(bytes) && bytes.find("facet") != bytes.npos) { return {FileKind::stl, "a polygon mesh (STL)", nullptr}; }
     if (begins_scene(words[0], i == 0)) { return {FileKind::scene, "a scene", nullptr}; }
     if (begins_script(words)) { return {FileKind::script, "a script of Euler operators", nullptr}; }
     if (i == 0 && is_binary_stl(bytes)) { return {FileKind::stl, "a polygon mesh (STL)", nullptr}; }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cstddef>
 
 namespace apps {
@@ -32,6 +33,11 @@ std::size_t distance(std::string_view a, std::string_view b) {
 }
 
 }  // namespace
+
+bool same_letters(std::string_view word, std::string_view small) {
+  const auto same = [](char a, char b) { return std::tolower(static_cast<unsigned char>(a)) == b; };
+  return std::equal(word.begin(), word.end(), small.begin(), small.end(), same);
+}
 
 std::string_view nearest(std::string_view word, std::span<const std::string_view> known) {
   std::string_view best;

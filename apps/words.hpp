@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Helps with words that are not known: which known word was probably meant.
+// Whether two words are the same, and which known word was probably meant by one that is not known.
 
 #include <span>
 #include <string>
@@ -9,6 +9,9 @@
 #include <vector>
 
 namespace apps {
+
+// Is it this word, whatever the case of its letters? `small` has small ones.
+[[nodiscard]] bool same_letters(std::string_view word, std::string_view small);
 
 // The known word that is fewest edits away (Damerau 1964, Levenshtein 1966), when those are at most a third of its
 // letters; else empty. Ties go to the word that is listed first. Words beyond 40 letters have no neighbour.

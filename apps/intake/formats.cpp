@@ -12,8 +12,8 @@
 
 namespace apps {
 std::span<const ModelFormat* const> model_formats() {
-  static constexpr std::array formats{&intake::obj, &intake::gltf, &intake::glb,       &intake::ply,
-                                      &intake::off, &intake::wrl,  &intake::mgf_format};
+  static constexpr std::array formats{&intake::obj, &intake::gltf, &intake::glb, &intake::ply,
+                                      &intake::off, &intake::stl,  &intake::wrl, &intake::mgf_format};
   return formats;
 }
 

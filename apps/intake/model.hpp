@@ -124,7 +124,7 @@ struct ModelFormat {
 };
 
 namespace intake {
-extern const ModelFormat obj, ply, off, gltf, glb, wrl, mgf_format;
+extern const ModelFormat obj, ply, off, stl, gltf, glb, wrl, mgf_format;
 }
 [[nodiscard]] std::span<const ModelFormat* const> model_formats();
 

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "apps/mesh_file.hpp"
 
-#include <algorithm>
 #include <array>
-#include <cctype>
 
 #include <brep/builder_input.hpp>
 
@@ -24,9 +22,7 @@ std::string mesh_endings() {
 
 bool has_ending(std::string_view path, std::string_view ending) {
   if (path.size() <= ending.size()) { return false; }
-  const std::string_view end = path.substr(path.size() - ending.size());
-  const auto same = [](char a, char b) { return std::tolower(static_cast<unsigned char>(a)) == b; };
-  return std::equal(end.begin(), end.end(), ending.begin(), same);
+  return same_letters(path.substr(path.size() - ending.size()), ending);
 }
 
 const MeshFormat* mesh_format(std::string_view path) {

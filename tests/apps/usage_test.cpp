@@ -20,7 +20,7 @@ TEST_CASE("a wrong command line is told in one sentence with the nearest known w
       {"paint x.scene", "there is no command 'paint'; the commands are render, info,"},
       {"x.scene", "'x.scene' is no command; to solve a scene: halflight render x.scene"},
       {"--foo", "there is no option '--foo' before a command; the commands are"},
-      {"render", "render needs SCENE, the scene: a .scene file, or .obj, .gltf, .glb, .ply, .off, .wrl or .mgf"},
+      {"render", "render needs SCENE, the scene: a .scene file, or .obj, .gltf, .glb, .ply, .off, .stl, .wrl or .mgf"},
       {"render x.scene y.scene", "'y.scene' is one too many: render takes SCENE"},
       {"render x.scene --epsilo 1", "render has no option '--epsilo'; did you mean '--epsilon'?"},
       {"render x.scene --epsilo=1", "render has no option '--epsilo'; did you mean '--epsilon'?"},

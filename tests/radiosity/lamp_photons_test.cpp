@@ -189,7 +189,7 @@ TEST_CASE("path tracing: the lamps of other rooms, however bright, add next to n
 }
 
 // The light that the ceiling sends back, by paths of near light. What the solutions of both scenes say of the rest differs.
-TEST_CASE("near light: the lamps of other rooms, however bright, add next to no noise", "[picture]") {
+TEST_CASE("near light: the lamps of other rooms, however bright, add next to no noise", "[picture][accuracy]") {
   const auto seed = static_cast<std::uint64_t>(GENERATE(take(3, random(1, 1'000'000))));
   radiosity::Random random{seed, 0};
   const glm::dvec3 x{0.3 * random.uniform(), 0.3 + 2.4 * random.uniform(), 0.0};

@@ -140,7 +140,7 @@ double distance(const RunToSplit& of, const RunToSplit& truth) {
 
 }  // namespace
 
-TEST_CASE("split links: where a lamp hides a ceiling the same thresholds give leaves that are nearer to the truth") {
+TEST_CASE("split links: where a lamp hides a ceiling the same thresholds give leaves that are nearer to the truth", "[accuracy]") {
   LinkSplitSeed random;
   INFO("seed " << random.seed);
   double before = 0.0, after = 0.0;

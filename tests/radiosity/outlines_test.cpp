@@ -187,7 +187,7 @@ TEST_CASE("a strip over pixels: the mean of its squared parts over all places") 
   }
 }
 
-TEST_CASE("a mesh for a camera is refined at its outlines until they are as good as was asked for", "[mesh]") {
+TEST_CASE("a mesh for a camera is refined at its outlines until they are as good as was asked for", "[mesh][accuracy]") {
   const radiosity::Scene scene = round_on_floor(0, 5);
   radiosity::Options options;
   options.epsilon = 0.05;

@@ -11,7 +11,7 @@
 #include "scenes.hpp"
 #include "solved.hpp"
 
-TEST_CASE("by stored rays as by links the sides of a block see the ground beside them in light or in shadow") {
+TEST_CASE("by stored rays as by links the sides of a block see the ground beside them in light or in shadow", "[accuracy]") {
   const auto seed = std::random_device{}();
   INFO("seed " << seed);
   std::mt19937_64 random{seed};

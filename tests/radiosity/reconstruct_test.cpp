@@ -312,7 +312,7 @@ TEST_CASE("reconstruction: the light of a sliver, as long as the leaf beside it,
   }
 }
 
-TEST_CASE("weighted reconstruction: over random facets it errs less than the constant radiosity of the leaves") {
+TEST_CASE("weighted reconstruction: over random facets it errs less than the constant radiosity of the leaves", "[accuracy]") {
   const auto seed = std::random_device{}();
   INFO("seed " << seed);
   radiosity::Random random{seed, 0};

@@ -128,7 +128,7 @@ TEST_CASE("a picture of a room: the meadow around it, however large, takes nothi
   CHECK(rays_by_view < 0.6 * rays_by_area);
 }
 
-TEST_CASE("a picture under a roof hardly depends on how large the plain around it is") {
+TEST_CASE("a picture under a roof hardly depends on how large the plain around it is", "[accuracy]") {
   const auto seed = std::random_device{}();
   INFO("seed " << seed);
   std::mt19937_64 random{seed};

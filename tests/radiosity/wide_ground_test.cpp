@@ -40,7 +40,7 @@ radiosity::Scene wall_on_ground(double half) {
 
 // Between the wall and the sky the ground at its foot has half of the light of that farther off, and at the foot it is half of what the
 // wall sees; the mesh alone makes it 10 % too bright. Over 32 places of 3 % each, with 2 % from tracing, four standard errors are 8 %.
-TEST_CASE("the foot of a wall on a ground of any width: gathered light is that of path tracing", "[picture]") {
+TEST_CASE("the foot of a wall on a ground of any width: gathered light is that of path tracing", "[picture][accuracy]") {
   const auto seed = static_cast<std::uint64_t>(GENERATE(take(1, random(1, 1'000'000))));
   const double half = GENERATE(20.0, 500.0, 10'000.0);
   CAPTURE(seed, half);
