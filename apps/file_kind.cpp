@@ -124,7 +124,7 @@ std::string advice(const std::string& path, FileKind found, FileKind wanted) {
     return "give it a name that ends with the right letters (" + mesh_endings() + "), and it is read as a scene";
   }
   if (found == FileKind::mesh) { return "`halflight check " + path + "` examines it"; }
-  if (found == FileKind::stl && mesh_wanted) { return "`halflight mesh " + path + " -o OUT.obj` makes one of it"; }
+  if (found == FileKind::stl && mesh_wanted && has_ending(path, ".stl")) { return "`halflight mesh " + path + " -o OUT.obj` converts it"; }
   if (found == FileKind::stl) { return "give it a name that ends with .stl, and it is read as a scene"; }
   if (found == FileKind::light) { return "`halflight render --light " + path + " -o OUT.png` draws a picture of it"; }
   if (found == FileKind::script) { return "`halflight euler " + path + "` plays it"; }
@@ -141,7 +141,8 @@ std::string advice(const std::string& path, FileKind found, FileKind wanted) {
 bool is_stl_text(std::string_view bytes) {
   FirstLines lines(without_mark(bytes));
   std::array<std::string_view, 3> words;
-  return !is_binary_stl(bytes) && lines.next(words) && same_letters(words[0], "solid");
+  constexpr std::size_t header = 84;  // of a binary file: its number of triangles, which is below 2^24, has a zero byte
+  return bytes.substr(0, header).find('\0') == bytes.npos && lines.next(words) && same_letters(words[0], "solid");
 }
 
 FileGuess guess_kind(std::string_view bytes) {
@@ -151,16 +152,18 @@ FileGuess guess_kind(std::string_view bytes) {
   for (const auto& [start, what] : signatures) {
     if (bytes.starts_with(start)) { return {FileKind::other, what, nullptr}; }
   }
+  if (is_binary_stl(bytes)) { return {FileKind::stl, "a polygon mesh (STL)", nullptr}; }
   FirstLines lines(bytes);
   std::array<std::string_view, 3> words;
   for (int i = 0; lines.next(words); ++i) {
     for (const MeshFormat* const format : mesh_formats()) {
       if (format->begins(words, i == 0)) { return {FileKind::mesh, std::string(format->content), format}; }
     }
-    if (i == 0 && is_stl_text(bytes) && bytes.find("facet") != bytes.npos) { return {FileKind::stl, "a polygon mesh (STL)", nullptr}; }
+    if (i == 0 && is_stl_text(bytes) && lines.next(words) && same_letters(words[0], "facet")) {
+      return {FileKind::stl, "a polygon mesh (STL)", nullptr};
+    }
     if (begins_scene(words[0], i == 0)) { return {FileKind::scene, "a scene", nullptr}; }
     if (begins_script(words)) { return {FileKind::script, "a script of Euler operators", nullptr}; }
-    if (i == 0 && is_binary_stl(bytes)) { return {FileKind::stl, "a polygon mesh (STL)", nullptr}; }
     if (i == 0 && !is_text(bytes)) { return {FileKind::other, "a binary file", nullptr}; }
   }
   return {};

@@ -23,7 +23,7 @@ struct FileGuess {
 // By the first bytes and words.
 [[nodiscard]] FileGuess guess_kind(std::string_view bytes);
 
-// STL as text begins with "solid"; so do many binary files, which are as long as they say that they are.
+// STL as text begins with "solid"; so do many binary files, which have a zero byte soon.
 [[nodiscard]] bool is_stl_text(std::string_view bytes);
 
 // The sentence, when the file is something else than a scene, a mesh of the format that its name says, or a script of Euler operators.

@@ -10,7 +10,7 @@
 
 namespace apps {
 
-// Is it this word, whatever the case of its letters? `small` has small ones.
+// Is it this word, whatever the case of its letters? `small` is in lower case.
 [[nodiscard]] bool same_letters(std::string_view word, std::string_view small);
 
 // The known word that is fewest edits away (Damerau 1964, Levenshtein 1966), when those are at most a third of its

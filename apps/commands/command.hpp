@@ -185,9 +185,9 @@ inline constexpr std::uint64_t most_threads = 1024;
                  "of such a file: reflectance of materials that have none (default: " + formatted("%g", options.reflectance) + ")"));
   arguments.push_back(parsed("--units", "UNIT", options.metres, parse_unit, "mm, cm, m, km, in, ft or a number above 0 (metres)",
                              "of such a file: length of one unit, mm, cm, m, km, in, ft or a number of metres (default: m)"));
-  arguments.push_back(
-      one_of<std::optional<UpAxis>, UpAxis>("--up", options.up, {{"x", UpAxis::x}, {"y", UpAxis::y}, {"z", UpAxis::z}},
-                                            "of such a file: axis that points up, x, y or z (default: z for .ply, .off, .stl and .mgf, else y)"));
+  arguments.push_back(one_of<std::optional<UpAxis>, UpAxis>(
+      "--up", options.up, {{"x", UpAxis::x}, {"y", UpAxis::y}, {"z", UpAxis::z}},
+      "of such a file: axis that points up, x, y or z (default: z for .ply, .off, .stl and .mgf, else y)"));
   arguments.push_back(flag("--as-given", options.merge, "of such a file: coplanar polygons are not merged into faces", false));
   return arguments;
 }

@@ -5,15 +5,13 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <map>
 #include <string>
 #include <string_view>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
 #include <glm/vec3.hpp>
-
-#include <radiosity/support/random.hpp>
 
 #include "apps/bytes.hpp"
 #include "apps/file_kind.hpp"
@@ -44,14 +42,6 @@ class StlReader {
   }
 
  private:
-  struct Hash {
-    std::size_t operator()(const std::array<double, 3>& p) const {
-      std::uint64_t key = 0;
-      for (const double x : p) { key = radiosity::scramble(key ^ std::bit_cast<std::uint64_t>(x)); }
-      return key;
-    }
-  };
-
   std::uint32_t vertex(const glm::dvec3& p) {
     const std::array<double, 3> key{p.x + 0.0, p.y + 0.0, p.z + 0.0};  // minus zero is zero
     const auto [at, fresh] = vertices_.try_emplace(key, static_cast<std::uint32_t>(model_.positions.size()));
@@ -63,9 +53,8 @@ class StlReader {
   void binary() {
     constexpr std::size_t header = 84, size = 50, corners = 12;
     const auto place = [](std::size_t at) { return Place{0, static_cast<std::uint32_t>(at + 1)}; };
-    if (bytes_.size() < header) {
-      return errors_.add(place(bytes_.size()),
-                         "expected an STL file: text that begins with 'solid', or 84 bytes and then 50 for each triangle");
+    if (bytes_.size() < header || bytes_.substr(0, header).find('\0') == bytes_.npos) {
+      return errors_.add(Place{}, "expected an STL file: text that begins with 'solid', or 84 bytes and then 50 for each triangle");
     }
     const std::uint64_t count = bits_at(bytes_, 80, 4), fitting = (bytes_.size() - header) / size;
     if (count == 0) { return errors_.add(place(80), "the file has no triangles"); }
@@ -96,7 +85,8 @@ class StlReader {
     }
   }
 
-  // solid NAME, then facets of "facet normal x y z outer loop vertex x y z ... endloop endfacet", then endsolid NAME; as often as one likes.
+  // "solid NAME", facets of "facet normal x y z outer loop vertex x y z ... endloop endfacet", "endsolid NAME", and again. Reading ends at
+  // the first error: what stands behind it has no place in any facet.
   void text() {
     while (next()) {
       if (is("solid")) {
@@ -112,7 +102,9 @@ class StlReader {
         return;
       }
     }
-    if (model_.polygons() == 0) { errors_.add(lines_.place(lines_.words().size()), "the file has no facets"); }
+    if (model_.polygons() == 0) {
+      errors_.add(lines_.place(lines_.words().size()), "the file has no facets; the name of a solid ends with its line");
+    }
   }
 
   bool facet() {
@@ -134,7 +126,6 @@ class StlReader {
     }
     if (corners.size() < 3 || !is("endloop")) { return fail(corners.size() < 3 ? "vertex" : "vertex or endloop"); }
     if (!expect("endfacet")) { return false; }
-    if (model_.groups.empty()) { model_.groups.emplace_back("mesh"); }
     model_.polygon(corners, 0, static_cast<std::uint32_t>(model_.groups.size() - 1), line);
     return true;
   }
@@ -159,7 +150,7 @@ class StlReader {
   std::string_view bytes_;
   mesh_file::Lines lines_;
   std::size_t word_ = static_cast<std::size_t>(-1);
-  std::unordered_map<std::array<double, 3>, std::uint32_t, Hash> vertices_;
+  std::map<std::array<double, 3>, std::uint32_t> vertices_;
   Model model_;
   Errors errors_;
 };

@@ -6,7 +6,8 @@
 // A LitRegion is what points of one place (a leaf, some neighbouring pixels) have in common: which lamps they can see, and what may stand
 // in between. It is made once and asked for each of its points. What stands between a flat lamp and a region, in the order of its cost:
 //   nothing             proven by the occluder lists of the scene (raycast/shaft.hpp) or by the shaft of both (polygon_shaft.hpp)
-//   faces, convex bodies  their shadow is cut out of the lamp (shadow.hpp): exact for flat faces, without noise, smooth in the point
+//   faces, convex bodies  their shadow is cut out of the lamp (shadow.hpp): exact for flat faces, without noise, smooth in the point.
+//                       Where they are many, those that others hide from all of the region are left out first
 //                       (closed meshes that are convex within 0.04 % of their diameter are bodies, too: corners of files are rounded)
 //   anything else       segments to 256 points of the lamp, the same from each point, so that neighbours agree; they are weighed so
 //                       that only what is hidden is sampled, and they stop at 64 when these agree (fewer where many lamps were joined).
@@ -111,12 +112,12 @@ class LitRegion {
   [[nodiscard]] double part_above(Reach& reach, std::size_t p, const glm::dvec3& x, const glm::dvec3& n);
   // Takes what may stand between as faces and outlines; false when some of it is neither.
   [[nodiscard]] bool take_bodies(Reach& reach, const raycast::PatchShape& shape) const;
-  // Where faces and outlines are many: leaves out those that others hide from all of the region. In a house seen from outside these are most
-  // of what stands in it, and each is held against all pieces of the lamp that the others leave.
+  // Where faces and outlines are many: leaves out those that others hide from all of the region. Of a house that is seen from outside these
+  // are most of what stands in it, and each would be cut out of every piece that the others leave of the lamp.
   void leave_out_hidden(Reach& reach, std::span<const glm::dvec3> contour);
-  // Without cones where it is not known.
-  [[nodiscard]] detail::Umbra umbra(const Reach::Outline& outline, std::span<const glm::dvec3> region);
-  [[nodiscard]] detail::Umbra umbra(const Blocker& face, std::span<const glm::dvec3> region) const;
+  // Has no cones where the umbra could not be found.
+  [[nodiscard]] detail::Umbra umbra_of(const Reach::Outline& outline, std::span<const glm::dvec3> region);
+  [[nodiscard]] detail::Umbra umbra_of(const Blocker& face, std::span<const glm::dvec3> region) const;
   // The cone from x over a convex body; empty when x lies on the body's surface.
   void make_cone(const Reach::Outline& outline, const glm::dvec3& x);
   // The form factor of what faces and outlines leave of the lamp, and its convex parts.

@@ -106,9 +106,9 @@ HALFLIGHT_INLINE bool LitRegion::take_bodies(Reach& reach, const raycast::PatchS
 
 namespace detail {
 
-// What lies behind a convex body, or face, for all points of a region: within all `cones`, one from each corner of the region over the body,
-// and behind all `fronts` that a point of the region may be before. A segment from each corner to a place there meets the body; then so do
-// those from the points between the corners, because the body is convex.
+// What lies behind a convex body, or face, for all points of a region: within all `cones`, one over the body from each corner of the region,
+// and behind all `fronts`, the planes of faces that a point of the region may be before. A segment from each corner to a place there meets
+// the body; then so do those from the points between the corners, because the body is convex.
 struct Umbra {
   std::vector<HalfSpace> cones, fronts;
 
@@ -122,7 +122,7 @@ struct Umbra {
 
 }  // namespace detail
 
-HALFLIGHT_INLINE detail::Umbra LitRegion::umbra(const Reach::Outline& outline, std::span<const glm::dvec3> region) {
+HALFLIGHT_INLINE detail::Umbra LitRegion::umbra_of(const Reach::Outline& outline, std::span<const glm::dvec3> region) {
   detail::Umbra umbra;
   const auto& facets = outline.facets->facets;
   constexpr std::size_t most_facets = 32;  // walls and furniture; past these the question costs more than it saves
@@ -138,7 +138,7 @@ HALFLIGHT_INLINE detail::Umbra LitRegion::umbra(const Reach::Outline& outline, s
   return umbra;
 }
 
-HALFLIGHT_INLINE detail::Umbra LitRegion::umbra(const Blocker& face, std::span<const glm::dvec3> region) const {
+HALFLIGHT_INLINE detail::Umbra LitRegion::umbra_of(const Blocker& face, std::span<const glm::dvec3> region) const {
   detail::Umbra umbra;
   const double height = glm::dot(face.normal, centre_ - face.contour[0]);
   if (!(std::abs(height) > radius_ + light_->slack_)) { return {}; }
@@ -153,8 +153,9 @@ HALFLIGHT_INLINE detail::Umbra LitRegion::umbra(const Blocker& face, std::span<c
 }
 
 HALFLIGHT_INLINE void LitRegion::leave_out_hidden(Reach& reach, std::span<const glm::dvec3> contour) {
-  constexpr std::size_t few = 8;           // are cut out sooner than this is asked
+  constexpr std::size_t few = 8;           // so few are cut out faster than they are tested
   constexpr std::size_t most_umbrae = 16;  // of those that look largest
+  constexpr double least_square = 1e-12;   // of a distance; nearer counts as this
   if (reach.faces.size() + reach.outlines.size() <= few) { return; }
   std::vector<glm::dvec3> region;
   for (const glm::dvec3& p : contour) {
@@ -164,39 +165,42 @@ HALFLIGHT_INLINE void LitRegion::leave_out_hidden(Reach& reach, std::span<const 
     double size = 0.0;  // about that of the solid angle
     const Blocker* face = nullptr;
     const Reach::Outline* outline = nullptr;
+    bool hidden = false;
   };
   std::vector<Shadow> shadows;
   for (const Blocker& face : reach.faces) {
     double size = 0.0;
     for (std::size_t i = 1; i + 1 < face.contour.size(); ++i) {
       const glm::dvec3 a = face.contour[0] - centre_, b = face.contour[i] - centre_, c = face.contour[i + 1] - centre_;
-      const double r2 = glm::dot(a + b + c, a + b + c) / 9.0;
+      const double r2 = std::max(glm::dot(a + b + c, a + b + c) / 9.0, least_square);
       size += 0.5 * std::abs(glm::dot(a, glm::cross(b, c))) / (r2 * std::sqrt(r2));
     }
     shadows.push_back({size, &face, nullptr});
   }
   for (const Reach::Outline& outline : reach.outlines) {
     const glm::dvec3 d = outline.centre - centre_;
-    shadows.push_back({outline.radius * outline.radius / glm::dot(d, d), nullptr, &outline});
+    shadows.push_back({outline.radius * outline.radius / std::max(glm::dot(d, d), least_square), nullptr, &outline});
   }
-  std::stable_sort(shadows.begin(), shadows.end(), [](const Shadow& a, const Shadow& b) { return a.size > b.size; });
-  std::vector<char> hidden(shadows.size(), 0);
-  for (std::size_t i = 0; i < std::min(shadows.size(), most_umbrae); ++i) {
-    if (hidden[i]) { continue; }
-    const detail::Umbra umbra = shadows[i].face ? this->umbra(*shadows[i].face, region) : this->umbra(*shadows[i].outline, region);
-    for (std::size_t k = i + 1; k < shadows.size(); ++k) {
-      const auto corners = shadows[k].face ? shadows[k].face->contour : std::span<const glm::dvec3>{shadows[k].outline->corners};
-      if (!hidden[k]) { hidden[k] = umbra.holds(corners) ? 1 : 0; }
+  std::vector<Shadow*> by_size;
+  for (Shadow& shadow : shadows) { by_size.push_back(&shadow); }
+  std::stable_sort(by_size.begin(), by_size.end(), [](const Shadow* a, const Shadow* b) { return a->size > b->size; });
+  for (std::size_t i = 0; i < std::min(by_size.size(), most_umbrae); ++i) {
+    const Shadow& large = *by_size[i];
+    if (large.hidden) { continue; }
+    const detail::Umbra umbra = large.face ? umbra_of(*large.face, region) : umbra_of(*large.outline, region);
+    for (std::size_t k = i + 1; k < by_size.size(); ++k) {
+      Shadow& other = *by_size[k];
+      other.hidden = other.hidden || umbra.holds(other.face ? other.face->contour : std::span{other.outline->corners});
     }
   }
   std::vector<Blocker> faces;
   std::vector<Reach::Outline> outlines;
   for (std::size_t k = 0; k < shadows.size(); ++k) {
-    if (hidden[k]) { continue; }
+    if (shadows[k].hidden) { continue; }
     if (shadows[k].face) {
       faces.push_back(*shadows[k].face);
     } else {
-      outlines.push_back(*shadows[k].outline);
+      outlines.push_back(std::move(reach.outlines[k - reach.faces.size()]));
     }
   }
   reach.faces = std::move(faces);

@@ -117,8 +117,9 @@ TEST_CASE("a pipe that nobody reads any more ends a command quietly, whether or 
 
 TEST_CASE("an output to a pipe that nobody reads any more is no fault") {
   const Place place;
-  for (const std::string& command : {"render " + program::scene("two_plates") + " --audit 0 --quiet --json -",
-                                     "factors " + program::scene("two_plates") + " --csv -", "explain " + program::scene("two_plates") + " -o -"}) {
+  for (const std::string& command :
+       {"render " + program::scene("two_plates") + " --audit 0 --quiet --json -", "factors " + program::scene("two_plates") + " --csv -",
+        "explain " + program::scene("two_plates") + " -o -"}) {
     const std::string line =
         "cd '" + place.path().string() + "' && { sleep 0.1; '" HALFLIGHT_PROGRAM "' " + command + " 2>err; echo $? >code; } | true";
     REQUIRE(std::system(line.c_str()) == 0);
@@ -142,8 +143,8 @@ TEST_CASE("figures that are interrupted before the first leave no folder, and a 
 
 TEST_CASE("what cannot be said is a failure: a full device, a closed standard output") {
   const Place place;
-  for (const std::string& command :
-       {"info " + program::scene("room"), "mesh " + program::scene("room"), "factors " + program::scene("two_plates"), std::string("--help")}) {
+  for (const std::string& command : {"info " + program::scene("room"), "mesh " + program::scene("room"),
+                                     "factors " + program::scene("two_plates"), std::string("--help")}) {
     for (const char* where : {" >/dev/full", " >&-"}) {
       const std::string line =
           "cd '" + place.path().string() + "' && '" HALFLIGHT_PROGRAM "' " + command + " 2>err" + where + "; echo $? >code";

@@ -72,8 +72,9 @@ TEST_CASE("STL: text and binary say the same, whatever the header, line ends and
   CHECK(text.groups == std::vector<std::string>{"my cube"});
   std::string shouted = as_text(cube());
   for (char& c : shouted) { c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; }
-  for (const std::string& bytes : {as_text(cube(), "\r\n"), as_text(cube(), "\n\t\n"), shouted, as_binary(cube()),
-                                   as_binary(cube(), "solid facet, but binary"), as_binary(cube()) + "more"}) {
+  for (const std::string& bytes :
+       {as_text(cube(), "\r\n"), as_text(cube(), "\n\t\n"), shouted, as_binary(cube()), as_binary(cube(), "solid facet, but binary"),
+        as_binary(cube()) + "more", as_binary(cube(), "solid, but binary") + "more", "\xef\xbb\xbf" + as_text(cube())}) {
     const apps::Model same = models::read("a.STL", bytes);
     CHECK(same.positions == text.positions);
     CHECK(same.corners == text.corners);
@@ -87,7 +88,7 @@ TEST_CASE("STL: text and binary say the same, whatever the header, line ends and
   }
 }
 
-TEST_CASE("STL: several solids are groups, facets need none, and have as many corners as they say") {
+TEST_CASE("STL: several solids are groups, and facets have as many corners as they say") {
   const std::string facet = "facet normal 0 0 1 outer loop vertex 0 0 0 vertex 1 0 0 vertex 1 1 0 vertex 0 1 -0 endloop endfacet\n";
   const apps::Model two = models::read("a.stl", "solid a\n" + facet + "endsolid a\nsolid b c\n" + facet + facet + "endsolid b c\n");
   CHECK(two.groups == std::vector<std::string>{"a", "b c"});
@@ -101,7 +102,7 @@ TEST_CASE("STL: several solids are groups, facets need none, and have as many co
 TEST_CASE("STL: what is wrong is told with its place") {
   const std::string start = "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\n";
   const std::pair<std::string, const char*> cases[] = {
-      {"solid a\nendsolid a\n", ":2:11: error: the file has no facets"},
+      {"solid a\nendsolid a\n", ":2:11: error: the file has no facets; the name of a solid ends with its line"},
       {"solid a\nface normal 0 0 1\n", ":2:1: error: expected solid, facet or endsolid, found 'face'"},
       {"solid a\nfacet normal 0 0\n", ":2:17: error: expected a number, found the end of the file"},
       {"solid a\nfacet normal 0 0 1 loop\n", ":2:20: error: expected outer, found 'loop'"},
@@ -109,14 +110,27 @@ TEST_CASE("STL: what is wrong is told with its place") {
       {start + "vertex 1 inf 0\n", ":5:10: error: expected a coordinate, a finite number, found 'inf'"},
       {start + "vertex 1 0 0\nendloop\n", ":6:1: error: expected vertex, found 'endloop'"},
       {start + "vertex 1 0 0\nvertex 0 1 0\nendfacet\n", ":7:1: error: expected vertex or endloop, found 'endfacet'"},
-      {"", ":byte 1: error: expected an STL file: text that begins with 'solid', or 84 bytes and then 50 for each triangle"},
+      {"", ":1:1: error: expected an STL file: text that begins with 'solid', or 84 bytes and then 50 for each triangle"},
       {as_binary({}), ":byte 81: error: the file has no triangles"},
-      {as_binary(cube()).substr(0, 600), ":byte 601: error: the file ends within triangle 11 of the 12 that its header promises"},
+      {"facet" + std::string(90, ' '),
+       ":1:1: error: expected an STL file: text that begins with 'solid', or 84 bytes and then 50 for each triangle"},
+      {as_binary(cube(), "solid").substr(0, 600), ":byte 601: error: the file ends within triangle 11 of the 12 that its header promises"},
   };
   for (const auto& [bytes, expected] : cases) { CHECK(models::error("a.stl", bytes) == expected); }
   std::vector<Triangle> broken = cube();
   broken[4][1].y = std::numeric_limits<float>::infinity();
   CHECK(models::error("a.stl", as_binary(broken)) == ":byte 297: error: a coordinate of triangle 5 is not a finite number");
+}
+
+TEST_CASE("STL: of a binary file all lengths are told or read, and no number of triangles takes memory") {
+  std::string bytes = as_binary(cube());
+  for (std::size_t size = 0; size <= bytes.size() + 60; ++size) {
+    std::string cut = bytes;
+    cut.resize(size);
+    CHECK(models::result("a.stl", cut).model.has_value() == (size >= bytes.size()));
+  }
+  bytes.replace(80, 4, "\xff\xff\xff\xff");
+  CHECK(models::error("a.stl", bytes) == ":byte 685: error: the file ends within triangle 13 of the 4294967295 that its header promises");
 }
 
 TEST_CASE("STL: damaged files give a model or an error, and end") {
@@ -141,5 +155,5 @@ TEST_CASE("STL: the program renders and converts it, and says what to do where a
   CHECK(place.run("info wrong.scene").err ==
         "halflight: wrong.scene is a polygon mesh (STL), not a scene; give it a name that ends with .stl, and it is read as a scene\n");
   CHECK(place.run("check a.stl").err ==
-        "halflight: a.stl is a polygon mesh (STL), not an OBJ file; `halflight mesh a.stl -o OUT.obj` makes one of it\n");
+        "halflight: a.stl is a polygon mesh (STL), not an OBJ file; `halflight mesh a.stl -o OUT.obj` converts it\n");
 }

@@ -120,10 +120,10 @@ TEST_CASE("direct light: among many things each point sees of a lamp what the fa
   for (int round = 0; round < 40; ++round) {
     const std::size_t count = 9 + random.bits() % 40;
     const glm::dvec3 middle{1.6 * random.uniform() - 0.8, 1.6 * random.uniform() - 0.8, 0};
-    const double half = 0.005 * std::pow(80.0, random.uniform());
+    const double half = round % 8 == 0 ? 0.0 : 0.005 * std::pow(80.0, random.uniform());  // some are a single point
     INFO(count << " things, a region of half the side " << half << " about " << middle.x << ' ' << middle.y);
     for (const Seen& at : seen(clutter(random, count), middle, half, random)) {
-      CHECK(std::abs(at.found - at.truth) < 1e-9);
+      CHECK(std::abs(at.found - at.truth) < 1e-9);  // rounding: shadows are cut in another order
       lit += at.truth > 0.0 ? 1 : 0;
     }
   }
