@@ -106,9 +106,9 @@ HALFLIGHT_INLINE bool LitRegion::take_bodies(Reach& reach, const raycast::PatchS
 
 namespace detail {
 
-// What lies behind a convex body, or face, for all points of a region: within all `cones`, one over the body from each corner of the region,
-// and behind all `fronts`, the planes of faces that a point of the region may be before. A segment from each corner to a place there meets
-// the body; then so do those from the points between the corners, because the body is convex.
+// What lies behind a convex body, or face, for all points of a region: within all `cones`, one over the body from each corner of the
+// region, and behind all `fronts`, the planes of faces that a point of the region may be before. A segment from each corner to a place
+// there meets the body; then so do those from the points between the corners, because the body is convex.
 struct Umbra {
   std::vector<HalfSpace> cones, fronts;
 
