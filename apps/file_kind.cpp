@@ -99,6 +99,13 @@ bool is_binary_stl(std::string_view bytes) {
   return triangles > 0 && bytes.size() == 84 + 50 * triangles;
 }
 
+// A line that begins with "solid", then one that begins with "facet".
+bool begins_stl_text(std::string_view bytes) {
+  FirstLines lines(bytes);
+  std::array<std::string_view, 3> words;
+  return is_stl_text(bytes) && lines.next(words) && lines.next(words) && same_letters(words[0], "facet");
+}
+
 // As far as the first 64 KiB tell.
 bool is_text(std::string_view bytes) {
   for (std::size_t at = 0; at < std::min<std::size_t>(bytes.size(), 1U << 16U);) {
@@ -159,9 +166,7 @@ FileGuess guess_kind(std::string_view bytes) {
     for (const MeshFormat* const format : mesh_formats()) {
       if (format->begins(words, i == 0)) { return {FileKind::mesh, std::string(format->content), format}; }
     }
-    if (i == 0 && is_stl_text(bytes) && lines.next(words) && same_letters(words[0], "facet")) {
-      return {FileKind::stl, "a polygon mesh (STL)", nullptr};
-    }
+    if (i == 0 && begins_stl_text(bytes)) { return {FileKind::stl, "a polygon mesh (STL)", nullptr}; }
     if (begins_scene(words[0], i == 0)) { return {FileKind::scene, "a scene", nullptr}; }
     if (begins_script(words)) { return {FileKind::script, "a script of Euler operators", nullptr}; }
     if (i == 0 && !is_text(bytes)) { return {FileKind::other, "a binary file", nullptr}; }

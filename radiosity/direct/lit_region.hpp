@@ -6,9 +6,9 @@
 // A LitRegion is what points of one place (a leaf, some neighbouring pixels) have in common: which lamps they can see, and what may stand
 // in between. It is made once and asked for each of its points. What stands between a flat lamp and a region, in the order of its cost:
 //   nothing             proven by the occluder lists of the scene (raycast/shaft.hpp) or by the shaft of both (polygon_shaft.hpp)
-//   faces, convex bodies  their shadow is cut out of the lamp (shadow.hpp): exact for flat faces, without noise, smooth in the point.
-//                       Where they are many, those that others hide from all of the region are left out first
-//                       (closed meshes that are convex within 0.04 % of their diameter are bodies, too: corners of files are rounded)
+//   faces, convex bodies  their shadow is cut out of the lamp (shadow.hpp): exact for flat faces, without noise, smooth in the point
+//                       (closed meshes that are convex within 0.04 % of their diameter are bodies, too: corners of files are rounded).
+//                       Where they are many, those that others hide from all of the region are left out first.
 //   anything else       segments to 256 points of the lamp, the same from each point, so that neighbours agree; they are weighed so
 //                       that only what is hidden is sampled, and they stop at 64 when these agree (fewer where many lamps were joined).
 //                       Right beside a lamp, where few of them face the point or most are far, they go to parts of it of equal light.

@@ -152,6 +152,7 @@ TEST_CASE("STL: the program renders and converts it, and says what to do where a
   CHECK(place.run("mesh a.stl -o a.obj").code == 0);
   CHECK(place.read("a.obj").find("\no mesh\n") != std::string::npos);
   CHECK(place.run("render a.stl -o a.png --size 32x24 --audit 0 --quiet").code == 0);
+  CHECK(apps::guess_kind("solid\nmaterial m reflectance 0.5\n").kind != apps::FileKind::stl);
   CHECK(place.run("info wrong.scene").err ==
         "halflight: wrong.scene is a polygon mesh (STL), not a scene; give it a name that ends with .stl, and it is read as a scene\n");
   CHECK(place.run("check a.stl").err ==
