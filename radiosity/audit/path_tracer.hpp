@@ -10,6 +10,9 @@
 // arrives in a direction at the angle t to the normal counts E / (p + cos t / pi) * cos t / pi: never more than E, so that no lamp,
 // however small, near or bright beside others, makes a rare path count much.
 //
+// Where small bright places hold much of the light, aimed() gives a tracer of which a part of the paths goes on towards them
+// (bright_places.hpp).
+//
 // A path ends by Russian roulette, but only once it carries little: as soon as the reflectances that it met multiply to less than a tenth,
 // or less than 1 - rho of the scene's brightest surface where that is more. If each bounce played for the path's life, the light of a white
 // closed room would be as uncertain as the length of its paths, which is of the order of 1 / (1 - rho) with a standard deviation as large.
@@ -21,10 +24,15 @@
 #include <numbers>
 #include <optional>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
+
+#include <brep/circulators.hpp>
+#include <brep/geometry.hpp>
+#include <brep/handles.hpp>
 
 #include <raycast/bundle.hpp>
 #include <raycast/object.hpp>
@@ -32,6 +40,7 @@
 #include <raycast/scene.hpp>
 #include <raycast/transform.hpp>
 
+#include <radiosity/audit/bright_places.hpp>
 #include <radiosity/audit/emitters.hpp>
 #include <radiosity/direct/lamp_photons.hpp>
 #include <radiosity/hierarchy/surface.hpp>
@@ -58,12 +67,32 @@ class PathTracer {
     for (const Surface& surface : surfaces) { first_surface_.push_back(surface.first_surface); }
     emitters_ = Emitters{surfaces, emission};
     if (emitters_.empty()) { return; }
-    const auto meet = [&](const raycast::SurfacePoint& from, const glm::dvec3& direction, std::uint32_t object, std::uint32_t sheet) {
-      std::uint64_t rays = 0;
-      const auto hit = first_front(from.position, direction, object, sheet, rays);
-      return hit ? std::optional{at(*hit, from.position, direction)} : std::nullopt;
-    };
-    emitters_.guide(lamp_photons(surfaces, emission, meet, objects.ray_work()), objects.diameter());
+    emitters_.guide(photons_by_lamp(surfaces, emission, meet_front(), objects.ray_work()), objects.diameter());
+  }
+
+  // The same with paths that are aimed at bright places, too; nothing where none matter. `surfaces`: as above. Whether they are worth it
+  // depends on where paths begin.
+  [[nodiscard]] std::optional<PathTracer> aimed(const std::vector<Surface>& surfaces) const {
+    if (emitters_.empty()) { return std::nullopt; }
+    std::vector<Color> emission;
+    for (const Material& material : materials_) { emission.push_back(material.emission); }
+    std::vector<BrightPlaces::Reflected> light;
+    for (const LampPhoton& photon : lamp_photons(surfaces, emission, meet_front(), objects_->ray_work())) {
+      const Color& rho = materials_[surface(photon.landed.object, photon.landed.sheet)].reflectance;
+      light.push_back({photon.landed, photon.power * (rho.x + rho.y + rho.z)});
+    }
+    BrightPlaces::Use use{0.0, objects_->diameter()};
+    for (const Surface& surface : surfaces) {
+      for (const brep::FaceId f : brep::faces(surface.brep)) { use.area += brep::area(surface.brep, f); }
+    }
+    // A path that was not aimed counts 1 / (1 - share) times as much, at every reflection: in a white room many times as much.
+    constexpr double most_share = 0.25;
+    use.share = std::min(most_share, 0.5 * (1.0 - brightest_ * brightest_));
+    constexpr double most_microseconds = 3e4, most_photons = 1 << 14, least_photons = 1 << 11;
+    use.photons = static_cast<std::uint32_t>(std::clamp(most_microseconds / objects_->ray_work(), least_photons, most_photons));
+    PathTracer result = *this;
+    result.places_ = BrightPlaces{std::move(light), use, meet_front()};
+    return result.places_.empty() ? std::nullopt : std::optional{std::move(result)};
   }
 
   // Largest reflectance of the scene.
@@ -92,7 +121,7 @@ class PathTracer {
                                 std::uint32_t most = std::numeric_limits<std::uint32_t>::max()) const {
     const Material* material = &materials_[surface(object, sheet)];
     Light result{material->emission, material->emission};
-    Color throughput{1.0};
+    Color throughput{1.0}, reflected{1.0};  // the latter without what directions are weighted by
     for (std::uint32_t reflections = 0; reflections < most; ++reflections) {
       const bool first = reflections == 0;
       const auto arrives = [&](const Color& light) {
@@ -101,28 +130,36 @@ class PathTracer {
       };
       const Color& rho = material->reflectance;
       throughput *= rho;
+      reflected *= rho;
       if (is_black(throughput)) { return result; }
-      const double u = random.uniform();
-      const glm::dvec3 onwards = cosine_direction(n, u, random.uniform());
+      const BrightPlaces::From places{places_, x, n};
+      const std::optional<glm::dvec3> onwards = places.direction(random);
+      if constexpr (std::is_same_v<Rays, RayCost>) { rays.work += places_.work(); }
       if (const std::optional<Emitters::Sample> lamp = emitters_.sample(x, n, random)) {
         const std::optional<raycast::Hit> hit = first_front(x, lamp->direction, object, sheet, rays);
-        if (hit) { arrives(throughput * emission(*hit) * balance(lamp->density, glm::dot(n, lamp->direction))); }
+        if (hit) {
+          arrives(throughput * emission(*hit) * balance(lamp->density + places.density(lamp->direction), glm::dot(n, lamp->direction)));
+        }
         count_emitters(x, n, lamp->direction, rays);
       }
       if (!first) {
-        const double carried = std::max({throughput.x, throughput.y, throughput.z});
+        const double carried = std::max({reflected.x, reflected.y, reflected.z});
         const double survival = std::min(1.0 - 1.0 / most_bounces, carried / std::max(0.1, 1.0 - brightest_));
         if (!(random.uniform() < survival)) { return result; }
         throughput /= survival;
+        reflected /= survival;
       }
 
-      const std::optional<raycast::Hit> hit = first_front(x, onwards, object, sheet, rays);
+      if (!onwards) { return result; }
+      const std::optional<raycast::Hit> hit = first_front(x, *onwards, object, sheet, rays);
       if (!hit) { return result; }
+      const double density = places.density(*onwards), cosine = glm::dot(n, *onwards);
       if (!is_black(emission(*hit))) {
-        arrives(throughput * emission(*hit) * balance(emitters_.density(x, n, onwards), glm::dot(n, onwards)));
-        count_emitters(x, n, onwards, rays);
+        arrives(throughput * emission(*hit) * balance(emitters_.density(x, n, *onwards) + density, cosine));
+        count_emitters(x, n, *onwards, rays);
       }
-      const raycast::SurfacePoint point = at(*hit, x, onwards);
+      const raycast::SurfacePoint point = at(*hit, x, *onwards);
+      throughput *= balance(density, cosine);
       x = point.position;
       n = point.normal;
       object = hit->object;
@@ -160,16 +197,25 @@ class PathTracer {
     if constexpr (std::is_same_v<Rays, RayCost>) { rays.work += emitters_.work(x, n, direction); }
   }
 
-  // What light of one counts in a direction: cosine / pi over the densities of both ways to find it.
+  // What light of one counts in a direction: cosine / pi over the density of all ways to find it.
   [[nodiscard]] static double balance(double density, double cosine) {
-    const double own = std::max(0.0, cosine) * std::numbers::inv_pi;
-    return own > 0.0 ? own / (density + own) : 0.0;
+    return density > 0.0 ? std::max(0.0, cosine) * std::numbers::inv_pi / density : 0.0;
+  }
+
+  [[nodiscard]] MeetFront meet_front() const {
+    return [this](const raycast::SurfacePoint& from, const glm::dvec3& direction, std::uint32_t object,
+                  std::uint32_t sheet) -> std::optional<Landing> {
+      std::uint64_t rays = 0;
+      const auto hit = first_front(from.position, direction, object, sheet, rays);
+      return hit ? std::optional{Landing{at(*hit, from.position, direction), hit->object, hit->sheet}} : std::nullopt;
+    };
   }
 
   const raycast::Scene* objects_;
   std::vector<Material> materials_;           // one a surface
   std::vector<std::uint32_t> first_surface_;  // one an object
   Emitters emitters_;
+  BrightPlaces places_;
   double brightest_ = 0.0;
 };
 

@@ -21,6 +21,7 @@
 #include <raycast/scene.hpp>
 #include <raycast/transform.hpp>
 
+#include <radiosity/audit/aimed_paths.hpp>
 #include <radiosity/audit/audit_effort.hpp>
 #include <radiosity/audit/path_tracer.hpp>
 #include <radiosity/audit/pixel_draw.hpp>
@@ -56,7 +57,8 @@ HALFLIGHT_INLINE std::optional<PictureError> PictureAudit::measure(const ShownPi
   const double price = prepared_->objects.ray_work() + prepared_->objects.walk_work();
   const PixelDraw draw = draw_of(picture, goal.among_rays_of(price).rays / 8, rays, control);
   // What is seen may lie where rays are dearer or cheaper than they are in the mean.
-  const double seen_price = ray_price(picture, draw, seed);
+  const Series series{picture, draw, tracer_for(picture, draw, goal.rays, seed), seed};
+  const double seen_price = ray_price(series);
   AuditGoal own = goal.among_rays_of(seen_price > 0.0 ? seen_price / microseconds_of_ray : price);
   own.rays -= std::min(own.rays, rays);
   const auto measure = [&](std::uint64_t points, std::uint32_t paths, Measured& to) {
@@ -70,7 +72,7 @@ HALFLIGHT_INLINE std::optional<PictureError> PictureAudit::measure(const ShownPi
           [&](std::size_t offset) {
             if (control.cancelled()) { return; }
             const std::size_t i = done + offset;
-            to.samples[i] = measure_pixel(picture, seed, first + i, draw, i, side, paths);
+            to.samples[i] = measure_pixel(series, first + i, i, side, paths);
           },
           4);
       control.report("audit", static_cast<double>(done) / static_cast<double>(to.samples.size()));
@@ -111,7 +113,10 @@ HALFLIGHT_INLINE std::optional<PictureError> PictureAudit::measure(const ShownPi
 }
 
 HALFLIGHT_INLINE PictureAudit::PictureAudit(const Scene& scene, const LightUnit& unit, Prepared prepared)
-    : unit_{unit}, prepared_{std::make_unique<Prepared>(std::move(prepared))}, tracer_{scene, prepared_->objects, prepared_->surfaces} {
+    : unit_{unit},
+      prepared_{std::make_unique<Prepared>(std::move(prepared))},
+      tracer_{scene, prepared_->objects, prepared_->surfaces},
+      aimed_{tracer_.aimed(prepared_->surfaces)} {
   const auto inputs = surfaces(scene);
   all_emit_ =
       std::none_of(inputs.begin(), inputs.end(), [&](const InputSurface& s) { return is_black(scene.materials[s.material].emission); });
@@ -207,24 +212,41 @@ HALFLIGHT_INLINE PixelDraw PictureAudit::draw_of(const ShownPicture& picture, st
   return {picture.width, picture.height, pixel_importance(picture.width, picture.height, radiosity, left_out)};
 }
 
-HALFLIGHT_INLINE PictureAudit::Sample PictureAudit::measure_pixel(const ShownPicture& picture, std::uint64_t seed, std::uint64_t key,
-                                                                  const PixelDraw& draw, std::size_t i, std::uint32_t side,
-                                                                  std::uint32_t paths) const {
+HALFLIGHT_INLINE const PathTracer& PictureAudit::tracer_for(const ShownPicture& picture, const PixelDraw& draw, std::uint64_t rays,
+                                                            std::uint64_t seed) const {
+  if (!aimed_ || rays < least_rays_to_aim) { return tracer_; }
+  const std::uint32_t side = PixelDraw::side(128);
+  const auto start = [&](std::uint32_t i) -> std::optional<PathStart> {
+    Random random{seed, i, 0x61696d696e67ull};
+    const PixelDraw::Pixel pixel = draw.draw(i, side, random);
+    std::uint64_t own = 0;
+    const auto at = seen(picture, pixel.x + 0.5, pixel.y + 0.5, own);
+    if (!at || (!all_emit_ && !is_black(emission(*at)))) { return std::nullopt; }
+    return PathStart{at->point, at->object, at->sheet, pixel.weight};
+  };
+  const auto points = static_cast<std::uint32_t>(PixelDraw::size(side));
+  return aiming_pays(tracer_, *aimed_, seed, points, start) ? *aimed_ : tracer_;
+}
+
+HALFLIGHT_INLINE PictureAudit::Sample PictureAudit::measure_pixel(const Series& series, std::uint64_t key, std::size_t i,
+                                                                  std::uint32_t side, std::uint32_t paths) const {
+  const ShownPicture& picture = series.picture;
   Sample sample;
-  Random random{seed, key, 0x706978656cull};
-  const PixelDraw::Pixel pixel = draw.draw(i, side, random);
+  Random random{series.seed, key, 0x706978656cull};
+  const PixelDraw::Pixel pixel = series.draw.draw(i, side, random);
   sample.x = pixel.x;
   sample.y = pixel.y;
   sample.weight = pixel.weight;
   const std::optional<Color> emits = emitted(picture, sample.x, sample.y, sample.rays);
   if (!emits) { return sample; }
   bool edge = false;  // of a lamp
-  const PathEstimates light{seed, key, paths, [&](PathNumbers& numbers) -> PathTracer::Light {
+  const PathEstimates light{series.seed, key, paths, [&](PathNumbers& numbers) -> PathTracer::Light {
                               const double u = numbers.uniform();
                               const auto at = seen(picture, sample.x + u, sample.y + numbers.uniform(), sample.rays);
                               edge = edge || (at ? emission(*at) : Color{0.0}) != *emits;
                               if (!at) { return {}; }
-                              return tracer_.radiosity(at->point.position, at->point.normal, at->object, at->sheet, numbers, sample.rays);
+                              return series.tracer.radiosity(at->point.position, at->point.normal, at->object, at->sheet, numbers,
+                                                             sample.rays);
                             }};
   if (edge) { return sample; }
   const Color shown = unit_.to_unit(picture.radiosity(sample.x, sample.y));
@@ -246,16 +268,16 @@ HALFLIGHT_INLINE PictureAudit::Sample PictureAudit::measure_pixel(const ShownPic
   return sample;
 }
 
-HALFLIGHT_INLINE double PictureAudit::ray_price(const ShownPicture& picture, const PixelDraw& draw, std::uint64_t seed) const {
+HALFLIGHT_INLINE double PictureAudit::ray_price(const Series& series) const {
   const std::uint32_t side = PixelDraw::side(256);
   PathTracer::RayCost cost;
   for (std::size_t i = 0; i < PixelDraw::size(side); ++i) {
-    Random random{seed, i, 0x7072696365ull};
-    const PixelDraw::Pixel pixel = draw.draw(i, side, random);
+    Random random{series.seed, i, 0x7072696365ull};
+    const PixelDraw::Pixel pixel = series.draw.draw(i, side, random);
     std::uint64_t rays = 0;
-    const auto at = seen(picture, pixel.x + 0.5, pixel.y + 0.5, rays);
+    const auto at = seen(series.picture, pixel.x + 0.5, pixel.y + 0.5, rays);
     if (!at) { continue; }
-    static_cast<void>(tracer_.radiosity(at->point.position, at->point.normal, at->object, at->sheet, random, cost));
+    static_cast<void>(series.tracer.radiosity(at->point.position, at->point.normal, at->object, at->sheet, random, cost));
   }
   return cost.mean();
 }

@@ -84,15 +84,26 @@ class PictureAudit {
   // lamp.
   [[nodiscard]] std::optional<Color> emitted(const ShownPicture& picture, std::uint32_t x, std::uint32_t y, std::uint64_t& rays) const;
 
+  // What is measured, and how.
+  struct Series {
+    const ShownPicture& picture;
+    const PixelDraw& draw;
+    const PathTracer& tracer;
+    std::uint64_t seed = 0;
+  };
+
   // With what probability each pixel is drawn. Bright pixels that do not count, such as lamps, are looked for first, by about `most` rays,
   // and are never drawn, because that would be wasted. Which of them are found changes where pixels are drawn, not what the estimate means.
   [[nodiscard]] PixelDraw draw_of(const ShownPicture& picture, std::uint64_t most, std::uint64_t& rays, const Control& control) const;
 
-  [[nodiscard]] Sample measure_pixel(const ShownPicture& picture, std::uint64_t seed, std::uint64_t key, const PixelDraw& draw,
-                                     std::size_t i, std::uint32_t side, std::uint32_t paths) const;
+  // The tracer for an audit of so many rays: the one with aimed paths, if that pays (aimed_paths.hpp).
+  [[nodiscard]] const PathTracer& tracer_for(const ShownPicture& picture, const PixelDraw& draw, std::uint64_t rays,
+                                             std::uint64_t seed) const;
+
+  [[nodiscard]] Sample measure_pixel(const Series& series, std::uint64_t key, std::size_t i, std::uint32_t side, std::uint32_t paths) const;
 
   // What a ray of the paths from what is seen costs (PathTracer::RayCost): the mean over 256 pixels that are drawn so.
-  [[nodiscard]] double ray_price(const ShownPicture& picture, const PixelDraw& draw, std::uint64_t seed) const;
+  [[nodiscard]] double ray_price(const Series& series) const;
 
   [[nodiscard]] static std::size_t tile(const ShownPicture& picture, const Sample& sample) {
     return 4 * (std::size_t{4} * sample.y / picture.height) + std::size_t{4} * sample.x / picture.width;
@@ -105,6 +116,7 @@ class PictureAudit {
   LightUnit unit_;
   std::unique_ptr<Prepared> prepared_;  // the tracer points into it
   PathTracer tracer_;
+  std::optional<PathTracer> aimed_;
   bool all_emit_ = false;  // every surface does
 };
 

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -16,7 +17,9 @@
 #include <raycast/scene.hpp>
 #include <raycast/transform.hpp>
 
+#include <radiosity/audit/aimed_paths.hpp>
 #include <radiosity/audit/path_tracer.hpp>
+#include <radiosity/hierarchy/surface.hpp>
 #include <radiosity/result/error_estimate.hpp>
 #include <radiosity/result/mesh.hpp>
 #include <radiosity/scene/material.hpp>
@@ -114,6 +117,23 @@ HALFLIGHT_INLINE std::optional<SurfaceErrorMeter::Spot> SurfaceErrorMeter::spot(
   // Of a leaf that counts as exposed a corner may be buried all the same (exposure.hpp): seen from within what buries it, all is wrong.
   if (objects_->covered(point.position, point.normal, input.object)) { return std::nullopt; }
   return Spot{&*triangle, weight, point};
+}
+
+HALFLIGHT_INLINE void SurfaceErrorMeter::aim(const std::vector<Surface>& boundaries) {
+  constexpr std::uint32_t points = 128;
+  if (!(total_ > 0.0)) { return; }
+  std::optional<PathTracer> aimed = tracer_->aimed(boundaries);
+  if (!aimed) { return; }
+  const bool pays = aiming_pays(*tracer_, *aimed, seed_, points, [&](std::uint32_t i) -> std::optional<PathStart> {
+    Random random{seed_, i, 0x61696d696e67ull};
+    const std::optional<Spot> at = spot(random, static_cast<double>(i) / points, 1.0 / points);
+    if (!at) { return std::nullopt; }
+    const InputSurface& input = inputs_[mesh_->faces[at->triangle->face].surface];
+    return PathStart{at->point, input.object, input.sheet, 1.0 / (total_ * density(*at->triangle))};
+  });
+  if (!pays) { return; }
+  aimed_ = std::move(aimed);
+  tracer_ = &*aimed_;
 }
 
 HALFLIGHT_INLINE double SurfaceErrorMeter::ray_price() const {

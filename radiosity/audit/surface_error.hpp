@@ -18,6 +18,7 @@
 #include <raycast/scene.hpp>
 
 #include <radiosity/audit/path_tracer.hpp>
+#include <radiosity/hierarchy/surface.hpp>
 #include <radiosity/result/error_estimate.hpp>
 #include <radiosity/result/mesh.hpp>
 #include <radiosity/scene/material.hpp>
@@ -103,6 +104,11 @@ class SurfaceErrorMeter {
   // the meter.
   SurfaceErrorMeter(const Scene& scene, const raycast::Scene& objects, const PathTracer& tracer, const Exposure& exposure, const Mesh& mesh,
                     const Mesh* direct, std::uint64_t seed);
+  SurfaceErrorMeter(const SurfaceErrorMeter&) = delete;
+  SurfaceErrorMeter& operator=(const SurfaceErrorMeter&) = delete;
+
+  // From now on paths are aimed at bright places, if that pays (aimed_paths.hpp). `boundaries`: of the objects.
+  void aim(const std::vector<Surface>& boundaries);
 
   // Adds `points` fresh points, spread evenly over the mesh; buried ones, and those nearest to the back of a blade, do not count.
   // False when cancelled.
@@ -145,6 +151,7 @@ class SurfaceErrorMeter {
 
   const raycast::Scene* objects_;
   const PathTracer* tracer_;
+  std::optional<PathTracer> aimed_;
   const Exposure* exposure_;
   const Mesh* mesh_;
   const Mesh* direct_;

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <set>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -62,8 +63,8 @@ struct ShiningTriangle {
 
 }  // namespace detail
 
-HALFLIGHT_INLINE std::vector<PhotonGrid::Photon> lamp_photons(const std::vector<Surface>& surfaces, const std::vector<Color>& emission,
-                                                              const MeetFront& meet, double price) {
+HALFLIGHT_INLINE std::vector<LampPhoton> lamp_photons(const std::vector<Surface>& surfaces, const std::vector<Color>& emission,
+                                                      const MeetFront& meet, double price) {
   constexpr std::size_t of_a_lamp = 512, fewest = 512, least = 1u << 13, most = 1u << 15;
   constexpr double most_microseconds = 3e4;  // about what a small audit takes
   std::vector<detail::ShiningTriangle> triangles = detail::shining_triangles(surfaces, emission);
@@ -74,7 +75,7 @@ HALFLIGHT_INLINE std::vector<PhotonGrid::Photon> lamp_photons(const std::vector<
     power_of[source(triangle)] += triangle.power;
     all += triangle.power;
   }
-  if (power_of.size() < 2) { return {}; }
+  if (power_of.empty()) { return {}; }
   const auto probability = [&](const detail::ShiningTriangle& triangle) {
     return 0.5 * triangle.power / all + 0.5 * triangle.power / power_of[source(triangle)] / static_cast<double>(power_of.size());
   };
@@ -84,7 +85,7 @@ HALFLIGHT_INLINE std::vector<PhotonGrid::Photon> lamp_photons(const std::vector<
   const auto count =
       static_cast<std::uint32_t>(std::min(std::clamp(of_a_lamp * power_of.size(), least, most), std::max(fewest, affordable)));
   const Sobol4 sequence{8};
-  std::vector<PhotonGrid::Photon> photons;
+  std::vector<LampPhoton> photons;
   for (std::uint32_t i = 0; i < count; ++i) {
     const std::array<double, 4> u = sequence(i);
     const double at = u[0] * until;
@@ -96,7 +97,21 @@ HALFLIGHT_INLINE std::vector<PhotonGrid::Photon> lamp_photons(const std::vector<
     const glm::dvec3 chord = (1.0 - root) * a + root * (1.0 - u[3]) * b + root * u[3] * c;
     const raycast::SurfacePoint from = triangle.of->object->project(triangle.sheet, chord);
     const auto landed = meet(from, cosine_direction(from.normal, u[1], u[2]), triangle.object, triangle.sheet);
-    if (landed) { photons.push_back({landed->position, landed->normal, source(triangle)}); }
+    if (landed) { photons.push_back({*landed, source(triangle), triangle.power / own}); }
+  }
+  return photons;
+}
+
+HALFLIGHT_INLINE std::vector<PhotonGrid::Photon> photons_by_lamp(const std::vector<Surface>& surfaces, const std::vector<Color>& emission,
+                                                                 const MeetFront& meet, double price) {
+  std::set<std::uint32_t> shining;
+  for (const detail::ShiningTriangle& triangle : detail::shining_triangles(surfaces, emission)) {
+    shining.insert(triangle.of->first_surface + triangle.sheet);
+  }
+  if (shining.size() < 2) { return {}; }
+  std::vector<PhotonGrid::Photon> photons;
+  for (const LampPhoton& photon : lamp_photons(surfaces, emission, meet, price)) {
+    photons.push_back({photon.landed.at.position, photon.landed.at.normal, photon.source});
   }
   return photons;
 }

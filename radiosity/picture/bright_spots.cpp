@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <numbers>
 #include <numeric>
 #include <queue>
@@ -221,8 +222,10 @@ HALFLIGHT_INLINE void BrightSpots::send16(const DirectLight& direct, std::uint32
     const Spot& spot = spot_at(groups_[g], rest);
     const double left = (rest * groups_[g].power - (spot.until - spot.power)) / spot.power;  // of the first number: it is the fourth
     const Target from = point_of(spot, u[3], std::clamp(left, 0.0, 1.0));
-    rays.set(k, {from.point.position, reach * cosine_direction(from.point.normal, u[1], u[2])}, from.object, raycast::no_object,
-             from.sheet);
+    const double lift = direct.lift(from.object);  // above a mesh that stands in for it, which its true surface may lie behind
+    const glm::dvec3 above = from.point.position + lift * from.point.normal;
+    rays.set(k, {above, reach * cosine_direction(from.point.normal, u[1], u[2])}, lift > 0.0 ? raycast::no_object : from.object,
+             raycast::no_object, from.sheet);
     group[k] = static_cast<std::uint32_t>(g);
     ++photons.sent[g];
   }
@@ -242,11 +245,12 @@ HALFLIGHT_INLINE void BrightSpots::send_photons(const DirectLight& direct) {
   Photons photons{std::vector<std::uint32_t>(groups_.size(), 0), std::vector<std::uint32_t>(groups_.size(), 0), {}};
   std::uint32_t sent = 0, elsewhere = 0;
   while (sent < detail::most_photons && elsewhere < detail::wanted_photons) {
-    // A group of which most light goes to other spots, in a housing, sends fewer.
+    // A group of which most light goes to other spots, in a housing, sends fewer: by the root of what gets out, which tells most of all that
+    // gets out for so many photons (Neyman 1934).
     std::vector<double> until;
     double all = 0.0;
     for (std::size_t g = 0; g < groups_.size(); ++g) {
-      until.push_back(all += groups_[g].power * (photons.elsewhere[g] + 1.0) / (photons.sent[g] + 1.0));
+      until.push_back(all += groups_[g].power * std::sqrt((photons.elsewhere[g] + 1.0) / (photons.sent[g] + 1.0)));
     }
     for (double& u : until) { u /= all; }
     for (const std::uint32_t end = sent + detail::photons_at_once; sent < end; sent += 16) { send16(direct, sent, until, photons); }
@@ -280,23 +284,26 @@ HALFLIGHT_INLINE BrightSpots::From::From(const BrightSpots& spots, const glm::dv
   for (const std::uint32_t i : found.photons) { landed += spots.photons_[i].power; }
   for (double& w : weight) { w *= all > 0.0 ? detail::unhidden_photons / all : 0.0; }
   const double count = static_cast<double>(found.photons.size());
+  // Of what is brightest first: rays lie evenly over what is as bright or brighter, and do not know of a border within what is darker.
+  std::vector<std::pair<double, double>> bright;  // radiosity of a photon's group, irradiance by it
   for (const std::uint32_t i : found.photons) {
     const SpotPhotons::Photon& photon = spots.photons_[i];
-    const double light = photon.power / (std::numbers::pi * found.radius * found.radius);
-    const double radiosity = spots.groups_[photon.group].radiosity;
     weight[photon.group] += count * photon.power / landed;
+    bright.emplace_back(spots.groups_[photon.group].radiosity, photon.power / (std::numbers::pi * found.radius * found.radius));
+  }
+  std::sort(bright.begin(), bright.end(), std::greater<>{});
+  double factor = 0.0;  // share of even rays that meet what is as bright
+  for (const auto& [radiosity, light] : bright) {
+    factor += light / radiosity;
     square_ += light * radiosity;
-    factor_ += light / radiosity;
+    border_ += light * radiosity / std::sqrt(1.0 + detail::even_rays * factor);
   }
   double sum = 0.0;
   for (const double w : weight) { until_.push_back(sum += w); }
   for (double& until : until_) { until /= sum; }
 }
 
-HALFLIGHT_INLINE double BrightSpots::From::contrast(double light) const {
-  const double meeting = detail::even_rays * factor_;
-  return square_ > 0.0 ? std::sqrt(square_ / std::sqrt(1.0 + meeting)) / light : 0.0;
-}
+HALFLIGHT_INLINE double BrightSpots::From::contrast(double light) const { return border_ > 0.0 ? std::sqrt(border_) / light : 0.0; }
 
 HALFLIGHT_INLINE BrightSpots::Target BrightSpots::From::choose(const std::array<double, 4>& numbers) const {
   const auto [g, rest] = group_at(until_, numbers[0]);

@@ -75,13 +75,15 @@ HALFLIGHT_INLINE PhotonGrid FinalGather::send_lamp_photons(const std::vector<Sur
     if (!direct_.is_lamp(s)) { emission[s] = Color{0.0}; }
   }
   const auto meet = [&](const raycast::SurfacePoint& from, const glm::dvec3& direction, std::uint32_t object,
-                        std::uint32_t sheet) -> std::optional<raycast::SurfacePoint> {
+                        std::uint32_t sheet) -> std::optional<Landing> {
     const double lift = direct_.lift(object);
     const raycast::Segment ray{from.position + lift * from.normal, direction * objects().diameter()};
     const auto hit = direct_.objects().closest(ray, lift > 0.0 ? raycast::no_object : object, sheet);
-    return hit && hit->front ? std::optional{met(*hit, ray).point} : std::nullopt;
+    if (!hit || !hit->front) { return std::nullopt; }
+    const Met landed = met(*hit, ray);
+    return Landing{landed.point, landed.object, landed.sheet};
   };
-  std::vector<PhotonGrid::Photon> photons = lamp_photons(boundaries, emission, meet, direct_.objects().ray_work());
+  std::vector<PhotonGrid::Photon> photons = photons_by_lamp(boundaries, emission, meet, direct_.objects().ray_work());
   for (PhotonGrid::Photon& photon : photons) {
     photon.source = static_cast<std::uint32_t>(direct_.lamp_of(photon.source) - direct_.lamps().data());
   }

@@ -10,6 +10,7 @@
 
 #include <raycast/inline.hpp>
 
+#include <radiosity/audit/aimed_paths.hpp>
 #include <radiosity/audit/audit_effort.hpp>
 #include <radiosity/audit/surface_error.hpp>
 #include <radiosity/result/audit.hpp>
@@ -45,6 +46,7 @@ HALFLIGHT_INLINE void measure_errors(Run& run) {
     const bool last = audit.picture_error && audit.picture_error->error.within(*options.error);
     goal = last ? to_know : AuditGoal{options.audit_points / 4, rays_worth(audit) / 4};
   }
+  if (goal.rays >= least_rays_to_aim) { meter.aim(run.scene.surfaces); }
   const double price = meter.ray_price();
   audit.ray_price = price > 0.0 ? price / microseconds_of_ray : audit.ray_work;
   goal = goal.among_rays_of(audit.ray_price);

@@ -58,10 +58,11 @@ radiosity::Scene row_of_rooms(int count, double others) {
 
 radiosity::MeetFront met_among(const raycast::Scene& objects) {
   return [&](const raycast::SurfacePoint& from, const glm::dvec3& direction, std::uint32_t object,
-             std::uint32_t sheet) -> std::optional<raycast::SurfacePoint> {
+             std::uint32_t sheet) -> std::optional<radiosity::Landing> {
     const raycast::Segment ray{from.position, direction * objects.diameter()};
     const auto hit = objects.closest(ray, object, sheet);
-    return hit && hit->front ? std::optional{objects.object(hit->object).project(hit->sheet, ray.at(hit->t))} : std::nullopt;
+    if (!hit || !hit->front) { return std::nullopt; }
+    return radiosity::Landing{objects.object(hit->object).project(hit->sheet, ray.at(hit->t)), hit->object, hit->sheet};
   };
 }
 
@@ -111,7 +112,7 @@ struct NearFloor {
     const std::vector<radiosity::Surface> boundaries = scenes::boundaries(lookup.objects());
     direct = radiosity::DirectLight{lookup.objects(), boundaries, emission, {.bodies = true}};
     std::vector<PhotonGrid::Photon> landed =
-        radiosity::lamp_photons(boundaries, emission, met_among(lookup.objects()), lookup.objects().ray_work());
+        radiosity::photons_by_lamp(boundaries, emission, met_among(lookup.objects()), lookup.objects().ray_work());
     for (PhotonGrid::Photon& photon : landed) {
       photon.source = static_cast<std::uint32_t>(direct.lamp_of(photon.source) - direct.lamps().data());
     }
