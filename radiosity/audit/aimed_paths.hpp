@@ -11,8 +11,8 @@
 
 #include <raycast/object.hpp>
 
+#include <radiosity/audit/path_estimates.hpp>
 #include <radiosity/audit/path_tracer.hpp>
-#include <radiosity/audit/surface_error.hpp>
 #include <radiosity/support/sobol.hpp>
 
 namespace radiosity {

@@ -23,6 +23,7 @@
 
 #include <radiosity/audit/aimed_paths.hpp>
 #include <radiosity/audit/audit_effort.hpp>
+#include <radiosity/audit/path_estimates.hpp>
 #include <radiosity/audit/path_tracer.hpp>
 #include <radiosity/audit/pixel_draw.hpp>
 #include <radiosity/audit/surface_error.hpp>

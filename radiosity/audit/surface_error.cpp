@@ -18,6 +18,7 @@
 #include <raycast/transform.hpp>
 
 #include <radiosity/audit/aimed_paths.hpp>
+#include <radiosity/audit/path_estimates.hpp>
 #include <radiosity/audit/path_tracer.hpp>
 #include <radiosity/hierarchy/surface.hpp>
 #include <radiosity/result/error_estimate.hpp>

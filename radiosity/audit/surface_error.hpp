@@ -11,7 +11,6 @@
 #include <optional>
 #include <vector>
 
-#include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
 #include <raycast/object.hpp>
@@ -25,70 +24,9 @@
 #include <radiosity/scene/options.hpp>
 #include <radiosity/scene/scene.hpp>
 #include <radiosity/support/random.hpp>
-#include <radiosity/support/sobol.hpp>
 #include <radiosity/visibility/exposure.hpp>
 
 namespace radiosity {
-
-// Independent estimates of the radiosity at a point by paths of an even sequence: four groups, and two halves of two groups each, of
-// `paths` paths. `key` names the point. `trace(numbers)` traces one path and returns the light that it found.
-//
-// The product of what two estimates are off is free of their noise on average. All six pairs of four groups leave less of it than the one
-// pair of halves: of independent paths half the variance.
-struct PathEstimates {
-  static constexpr std::uint32_t groups = 4;
-  Color all[groups] = {};
-  Color direct[groups] = {};  // the part that is emitted, or was reflected once
-
-  // `paths`: even.
-  template <class Trace>
-  PathEstimates(std::uint64_t seed, std::uint64_t key, std::uint32_t paths, const Trace& trace) {
-    const std::uint32_t own = paths / 2;
-    for (std::uint64_t group = 0; group < groups; ++group) {
-      const Sobol4 first{seed, 8 * key + 2 * group};
-      const Sobol4 second{seed, 8 * key + 2 * group + 1};
-      for (std::uint32_t k = 0; k < own; ++k) {
-        PathNumbers numbers{first, second, k, Random{seed, key, group << 32 | k}};
-        const PathTracer::Light light = trace(numbers);
-        all[group] += light.all / static_cast<double>(own);
-        direct[group] += light.direct / static_cast<double>(own);
-      }
-    }
-  }
-
-  [[nodiscard]] Color half(int which) const { return 0.5 * (all[2 * which] + all[2 * which + 1]); }
-
-  // Unbiased estimate of the square of what `shown` is off, of all channels together.
-  [[nodiscard]] double square_off(const Color& shown) const {
-    return of_pairs([&](std::uint32_t g) { return all[g] - shown; });
-  }
-  [[nodiscard]] double direct_square_off(const Color& shown) const {
-    return of_pairs([&](std::uint32_t g) { return direct[g] - shown; });
-  }
-  [[nodiscard]] double other_square_off(const Color& shown) const {
-    return of_pairs([&](std::uint32_t g) { return all[g] - direct[g] - shown; });
-  }
-
-  // What the noise of the groups adds to the variance of square_off(). With v the variance of a group, the mean of six products of two
-  // errors has the variance v^2 / 6, and the square of the variance that four groups show is 5/3 v^2 on average.
-  [[nodiscard]] double noise() const {
-    const Color mean = 0.5 * (half(0) + half(1));
-    double square = 0.0;
-    for (const Color& group : all) { square += glm::dot(group - mean, group - mean) / (groups - 1); }
-    return square * square / 10.0;
-  }
-
- private:
-  // The mean over all pairs of different groups.
-  template <class Off>
-  [[nodiscard]] static double of_pairs(const Off& off) {
-    double sum = 0.0;
-    for (std::uint32_t g = 0; g < groups; ++g) {
-      for (std::uint32_t h = 0; h < g; ++h) { sum += glm::dot(off(g), off(h)); }
-    }
-    return sum / 6.0;
-  }
-};
 
 struct SurfaceError {
   ErrorSums leaf, reconstructed;     // of the constant on each leaf; of the radiosity that is interpolated between the mesh's corners
