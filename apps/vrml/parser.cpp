@@ -42,8 +42,7 @@ class Parser {
     }
     if (is_statement()) { return statement(); }
     std::string name;
-    if (in_.is("USE")) {
-      in_.next();
+    if (in_.take("USE")) {
       const auto known = defined_.find(in_.token());
       if (known == defined_.end()) {
         fail(in_.is_word() ? "USE names " + mesh_file::shown(in_.token()) + ", but no node before it is called that by DEF"
@@ -53,8 +52,7 @@ class Parser {
       in_.next();
       return known->second;
     }
-    if (in_.is("DEF")) {
-      in_.next();
+    if (in_.take("DEF")) {
       if (!in_.is_word()) { fail("expected a name after DEF, " + found()); }
       name = in_.token();
       in_.next();
@@ -152,10 +150,7 @@ class Parser {
   void unknown_field(const std::string& node, std::string_view word, const NodeType* type, const FieldTypes& declared) {
     const Place place = in_.place();
     in_.next();
-    if (version_ == Version::v97 && in_.is("IS")) {  // an event of the node is that of the prototype
-      in_.next();
-      return in_.next();
-    }
+    if (version_ == Version::v97 && in_.take("IS")) { return in_.next(); }  // an event of the node is that of the prototype
     std::vector<std::string_view> known;
     for (const auto& [name, unused] : declared) { known.push_back(name); }
     for (std::size_t i = 0; type != nullptr && i < type->fields.size(); ++i) { known.push_back(type->fields[i].name); }
@@ -233,7 +228,7 @@ class Parser {
     const std::string name(in_.token());
     in_.next();
     if (!in_.is("[")) { return fail("expected '[' after the prototype " + mesh_file::shown(name) + ", " + found()); }
-    const FieldTypes* const outer_fields = std::exchange(fields_of_prototype_, nullptr);
+    const auto* const outer_fields = std::exchange(fields_of_prototype_, nullptr);
     prototypes_.enter();
     ++depth_;
     auto made = std::make_shared<Prototype>();
@@ -281,10 +276,11 @@ class Parser {
 
   std::shared_ptr<Node> instance_of(const Prototype& prototype, const Node& call) {
     const auto made = instance(prototype, call.fields, copies_left_);
-    if (made == nullptr) {
+    if (made == nullptr || made->children.size() >= copies_left_) {
       fail(call.place, "instances of prototypes make more than " + std::to_string(graph_limits.most_visits) + " nodes");
       return nullptr;
     }
+    copies_left_ -= made->children.size();
     auto node = std::make_shared<Node>(*made);
     if (!call.name.empty()) { node->name = call.name; }
     return node;
@@ -302,9 +298,11 @@ class Parser {
     }
     in_.next();
     out->is = in_.token();
-    const auto named = fields_of_prototype_ != nullptr ? fields_of_prototype_->find(out->is) : FieldTypes::const_iterator{};
-    const bool fits = fields_of_prototype_ != nullptr && named != fields_of_prototype_->end() && named->second.kind == type.kind &&
-                      named->second.count == type.count;
+    bool fits = false;
+    if (fields_of_prototype_ != nullptr) {
+      const auto named = fields_of_prototype_->find(out->is);
+      fits = named != fields_of_prototype_->end() && named->second.kind == type.kind && named->second.count == type.count;
+    }
     if (!fits) {
       notes_.add(
           "no prototype around has a field " + mesh_file::shown(out->is) + " of the type of '" + std::string(field) + "': passed over",
@@ -316,8 +314,7 @@ class Parser {
 
   void value(const FieldType& type, std::string_view field, Field& out) {
     if (type.kind != FieldType::Kind::nodes) { return in_.value(type, field, out); }
-    const bool brackets = type.many && in_.is("[");
-    if (brackets) { in_.next(); }
+    const bool brackets = type.many && in_.take("[");
     while (ok() && !(brackets && in_.is("]"))) {
       if (auto node = read()) { out.nodes.push_back(std::move(node)); }
       if (!brackets) { return; }
