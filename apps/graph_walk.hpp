@@ -5,7 +5,7 @@
 // The walk is depth first, in the order of the children, with a state that is handed on: what a node changes holds for all that comes
 // behind it, until a node around it that keeps the changes of its children to itself is left.
 //
-// The groups and uses of a .scene file (scene_file/groups.cpp) and the nodes of VRML 1.0 (vrml/traverse.cpp) are such graphs. What a node
+// The groups and uses of a .scene file (scene_file/groups.cpp) and the nodes of VRML (vrml/traverse.cpp) are such graphs. What a node
 // means is said by
 //     bool enter(node, state)             changes the state, or does what there is to do; false: the walk is given up
 //     children(node)                      a list of nodes

@@ -69,7 +69,7 @@ class SceneMaker {
       file_.origins.push_back(model_.origins[i]);
     }
     if (file_.scene.objects.empty()) {
-      faults.emplace_back("nothing in this file has a surface");
+      faults.push_back("nothing in this file has a surface" + (file_.notes.empty() ? "" : "; " + file_.notes[0]));
       return false;
     }
     if (file_.scene.objects.size() > max_model_objects) {

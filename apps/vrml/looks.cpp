@@ -16,11 +16,14 @@
 namespace apps::vrml {
 namespace {
 
-std::string at(const Node& node) { return "at line " + std::to_string(node.place.line); }
+// What the state's material says; of VRML 97 a Color node in its place.
+const Field* found_in(const State& state, std::string_view field) {
+  if (state.colors != nullptr && field == "diffuseColor") { return state.colors->find("color"); }
+  return state.material != nullptr ? state.material->find(field) : nullptr;
+}
 
-// How many values the state's material has for the field.
 std::size_t values(const State& state, std::string_view field, std::size_t size) {
-  const Field* const found = state.material != nullptr ? state.material->find(field) : nullptr;
+  const Field* const found = found_in(state, field);
   return found != nullptr ? found->numbers.size() / size : 0;
 }
 
@@ -32,7 +35,7 @@ std::uint32_t Looks::material(const State& state, Numbers numbers, bool two_side
   std::sort(numbers.begin(), numbers.end());
   if (numbers.front() == numbers.back()) { numbers.resize(1); }
   const auto next = static_cast<std::uint32_t>(model_.materials.size());
-  const auto [known, is_new] = known_.emplace(std::tuple(state.material, state.texture, numbers, two_sided), next);
+  const auto [known, is_new] = known_.emplace(std::tuple(state.material, state.colors, state.texture, numbers, two_sided), next);
   if (!is_new) { return known->second; }
   model_.materials.push_back(made(state, numbers, all));
   model_.materials.back().two_sided = two_sided;
@@ -45,7 +48,7 @@ ModelMaterial Looks::made(const State& state, const Numbers& numbers, std::size_
     if (n == 0) { return otherwise; }
     glm::dvec3 sum(0.0);
     for (const std::size_t number : numbers) {
-      const double* const c = &state.material->find(field)->numbers[3 * (number % n)];
+      const double* const c = &found_in(state, field)->numbers[3 * (number % n)];
       sum += glm::max(glm::dvec3(c[0], c[1], c[2]), glm::dvec3(0.0));
     }
     return sum / static_cast<double>(numbers.size());
@@ -58,16 +61,18 @@ ModelMaterial Looks::made(const State& state, const Numbers& numbers, std::size_
   const Node* const texture = state.texture;
   const auto picture =
       pictures_.of(texture, [&] { return texture != nullptr ? mean_of_texture(*texture, side_file_, notes_) : std::nullopt; });
-  material.reflectance = color("diffuseColor", glm::dvec3(0.8)) * picture.value_or(glm::dvec3(1.0));
+  // In VRML 97 a picture with colours stands in the place of the diffuse colour, one in grey is multiplied with it.
+  const bool replaces = picture && texture->version == Version::v97 && !(picture->x == picture->y && picture->y == picture->z);
+  material.reflectance = (replaces ? glm::dvec3(1.0) : color("diffuseColor", glm::dvec3(0.8))) * picture.value_or(glm::dvec3(1.0));
   material.emission = std::numbers::pi * color("emissiveColor", glm::dvec3(0.0));
   if (values(state, "transparency", 1) > 0 && state.material->number("transparency", 0.0) > 0.0) {
-    notes_.add("materials that let light through are taken as opaque", at(*state.material));
+    notes_.add("materials that let light through are taken as opaque", at_line_of(*state.material));
   }
   return material;
 }
 
 Looks::Numbers Looks::numbers(const Node& face_set, const State& state, const FaceCorners& of) {
-  const Field* const list = face_set.find("materialIndex");
+  const Field* const list = face_set.find(face_set.version == Version::v97 ? "colorIndex" : "materialIndex");
   const auto listed = [&](std::size_t i, double otherwise) {
     const double number = list != nullptr && i < list->numbers.size() && list->numbers[i] >= 0.0 ? list->numbers[i] : otherwise;
     return static_cast<std::size_t>(std::min(number, 1e9));
@@ -81,12 +86,11 @@ Looks::Numbers Looks::numbers(const Node& face_set, const State& state, const Fa
       return {listed(of.face, static_cast<double>(of.face))};
     case Binding::per_vertex:
     case Binding::per_vertex_indexed: {
-      notes_.add("faces with a material for each corner have the mean of their colours", at(face_set));
+      notes_.add("faces with a material for each corner have the mean of their colours", at_line_of(face_set));
       Numbers numbers;
-      const Field& index = *face_set.find("coordIndex");
       for (std::size_t k = 0; k < of.count; ++k) {  // without a list of their own they go by the coordinates
         const std::size_t i = of.first + k;
-        numbers.push_back(state.binding == Binding::per_vertex ? of.before + k : listed(i, index.numbers[i]));
+        numbers.push_back(state.binding == Binding::per_vertex ? of.before + k : listed(i, of.indices->numbers[i]));
       }
       return numbers;
     }
@@ -120,12 +124,12 @@ std::optional<radiosity::Color> mean_of_image(const std::vector<double>& numbers
 
 }  // namespace
 
-// The pictures of Texture2 nodes: a file beside the scene, or pixels in the field `image`: width, height, number of components (1 grey, 2
+// The pictures of texture nodes: a file beside the scene, or pixels in the field `image`: width, height, number of components (1 grey, 2
 // grey and opacity, 3 red, green and blue, 4 these and opacity), then a number for each pixel, its first component in the highest byte. A
 // surface has the mean of its picture times its diffuse colour.
 std::optional<radiosity::Color> mean_of_texture(const Node& texture, const SideFile& side_file, Notes& notes) {
   const Field* const image = texture.find("image");
-  const std::string name(texture.word("filename", ""));
+  const std::string name(texture.word(texture.version == Version::v97 ? "url" : "filename", ""));
   const bool inside = image != nullptr && image->numbers.size() >= 2 && image->numbers[0] * image->numbers[1] != 0.0;
   if (!inside && name.empty()) { return std::nullopt; }  // the end of an earlier picture
   std::string fault;
@@ -136,7 +140,7 @@ std::optional<radiosity::Color> mean_of_texture(const Node& texture, const SideF
     if (const auto bytes = side_file(name, fault)) { mean = intake::mean_color(*bytes); }
   }
   notes.add(mean ? "pictures on surfaces count with their mean colour" : "textures are not read: the diffuse colour stands for the picture",
-            "at line " + std::to_string(texture.place.line));
+            at_line_of(texture));
   return mean;
 }
 

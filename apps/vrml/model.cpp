@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// VRML 1.0 as a scene: a walk that makes objects of the shapes. Cube, Sphere, Cylinder and Cone stay what they are, analytic solids with
+// VRML as a scene: a walk that makes objects of the shapes. Cube or Box, Sphere, Cylinder and Cone stay what they are, analytic solids with
 // their placement; face sets become polygons. The diffuse colour is the reflectance, the emissive colour a radiance L: the exitance is pi
 // L.
 #include <algorithm>
@@ -43,16 +43,19 @@ class ModelMaker {
     const Node& node = *at;
     if (change(state, node)) { return true; }
     if (is_camera(node)) {
-      camera(node, state);
+      add_camera(model, node, state, notes_);
     } else if (node.type.ends_with("Light")) {
-      light(node, state);
-    } else if (node.children.empty() && node.type != "WWWInline") {
+      add_light(model, node, state, notes_);
+    } else if (node.version == Version::v97) {
+      const Node* const geometry = node.node("geometry");
+      if (geometry != nullptr) { shape(*geometry, state_of_shape(node, *geometry, state)); }
+    } else if (node.children.empty() && !is_inline(node)) {
       shape(node, state);
     }
     return true;
   }
   std::vector<std::shared_ptr<const Node>> children(const std::shared_ptr<const Node>& node) {
-    if (node->type != "WWWInline") { return walked_children(*node); }
+    if (!is_inline(*node)) { return walked_children(*node); }
     auto file = inlined(*node);
     return file == nullptr ? node->children : std::vector{std::move(file)};
   }
@@ -61,14 +64,13 @@ class ModelMaker {
  private:
   using Made = raycast::Made<raycast::Object>;
 
-  static std::string at(const Node& node) { return "at line " + std::to_string(node.place.line); }
-  static glm::dvec3 point(const State& state, const glm::dvec3& p) { return glm::dvec3(state.transform * glm::dvec4(p, 1.0)); }
+  static bool is_inline(const Node& node) { return node.type == "WWWInline" || node.type == "Inline"; }
 
   void shape(const Node& node, const State& state) {
     if (errors_.full()) { return; }
-    constexpr std::array<std::string_view, 3> surfaceless{"IndexedLineSet", "PointSet", "AsciiText"};
-    if (node.type == "Cube") {
-      cube(node, state);
+    constexpr std::array<std::string_view, 4> surfaceless{"IndexedLineSet", "PointSet", "AsciiText", "Text"};
+    if (node.type == "Cube" || node.type == "Box") {
+      box(node, state);
     } else if (node.type == "Sphere") {
       add(raycast::Sphere::make(glm::dvec3(0.0), node.number("radius", 1.0)), "sphere", {0}, node, state);
     } else if (node.type == "Cylinder") {
@@ -76,51 +78,30 @@ class ModelMaker {
     } else if (node.type == "Cone") {
       cone(node, state);
     } else if (node.type == "IndexedFaceSet") {
-      face_set(node, state);
+      const Field* const points = state.coordinates != nullptr ? state.coordinates->find("point") : nullptr;
+      face_set(node, node.find("coordIndex"), points, state);
+    } else if (node.type == "ElevationGrid") {
+      made_face_set(node, elevation_grid(node), state);
+    } else if (node.type == "Extrusion") {
+      made_face_set(node, extrusion(node), state);
     } else if (std::find(surfaceless.begin(), surfaceless.end(), node.type) != surfaceless.end()) {
-      notes_.add("lines, points and texts have no surface: left out", at(node));
+      notes_.add("lines, points and texts have no surface: left out", at_line_of(node));
     }
-  }
-
-  void camera(const Node& node, const State& state) {
-    const glm::dvec4 orientation = node.rotation("orientation");
-    const glm::dvec3 axis(orientation);
-    const glm::dmat3 turn =
-        glm::length(axis) > 0.0 ? glm::dmat3(glm::rotate(glm::dmat4(1.0), orientation.w, glm::normalize(axis))) : glm::dmat3(1.0);
-    const glm::dmat3 linear(state.transform);
-    radiosity::Camera camera;
-    camera.name = node.name.empty() ? "camera" + std::to_string(model.cameras.size()) : node.name;
-    camera.eye = point(state, node.vector("position", {0.0, 0.0, 1.0}));
-    camera.forward = linear * (turn * glm::dvec3(0.0, 0.0, -1.0));
-    camera.up = linear * (turn * glm::dvec3(0.0, 1.0, 0.0));
-    const bool parallel = node.type == "OrthographicCamera";
-    const double half_height = parallel ? 0.5 * node.number("height", 2.0) / node.number("focalDistance", 5.0)
-                                        : std::tan(0.5 * node.number("heightAngle", 0.785398));
-    camera.field_of_view = 2.0 * std::atan(4.0 / 3.0 * half_height) * 180.0 / std::numbers::pi;  // of pictures of 4 : 3
-    if (!usable(camera)) { return notes_.add("cameras that see nothing are passed over", at(node)); }
-    if (parallel) { notes_.add("cameras without perspective get one that shows as much at their focal distance", at(node)); }
-    model.cameras.push_back(std::move(camera));
-  }
-
-  void light(const Node& node, const State& state) {
-    if (node.word("on", "TRUE") == "FALSE") { return; }
-    if (node.type == "DirectionalLight") { return notes_.add("directional lights are left out: a lamp has a place", at(node)); }
-    if (node.type == "SpotLight") { notes_.add("spot lights shine in all directions", at(node)); }
-    const double intensity = node.number("intensity", 1.0);
-    const glm::dvec3 color = node.vector("color", glm::dvec3(1.0));
-    model.lights.push_back({point(state, node.vector("location", {0.0, 0.0, 1.0})), glm::max(intensity * color, glm::dvec3(0.0))});
   }
 
   // The file that stands in the place of the node; null when there is none.
   std::shared_ptr<const Node> inlined(const Node& node) {
-    const std::string name(node.word("name", ""));
+    std::string name(node.word(node.version == Version::v97 ? "url" : "name", ""));
+    const auto around = files_.find(&node);
+    if (around != files_.end() && !name.empty()) { name.insert(0, around->second, 0, around->second.rfind('/') + 1); }
     const auto [known, is_new] = inlines_.emplace(name, nullptr);
     if (!is_new) { return known->second; }
     std::string fault;
     const bool allowed = !name.empty() && name.find("://") == name.npos && inlines_.size() <= most_inlines;
     const auto text = allowed ? side_file_(name, fault) : std::nullopt;
     if (!text) {
-      notes_.add("the file " + mesh_file::shown(name) + (allowed ? " " + fault : " is not beside this one") + ": left out", at(node));
+      notes_.add("the file " + mesh_file::shown(name) + (allowed ? " " + fault : " is not beside this one") + ": left out",
+                 at_line_of(node));
       return nullptr;
     }
     Errors errors;
@@ -129,7 +110,7 @@ class ModelMaker {
     if (auto child = parse(*text, errors, notes_)) { root->children.push_back(std::move(child)); }
     if (errors.count() > 0) {
       std::string first = to_text(errors.take(), name);
-      notes_.add("left out " + first.substr(0, first.find('\n')), at(node));
+      notes_.add("left out " + first.substr(0, first.find('\n')), at_line_of(node));
       return nullptr;
     }
     std::vector<const Node*> open{root.get()};
@@ -138,6 +119,9 @@ class ModelMaker {
       open.pop_back();
       if (!files_.emplace(inner, name).second) { continue; }
       for (const auto& child : inner->children) { open.push_back(child.get()); }
+      for (const auto& [unused, field] : inner->fields) {
+        for (const auto& child : field->nodes) { open.push_back(child.get()); }
+      }
     }
     inlines_[name] = root;  // one that names itself is found to be too deep
     return root;
@@ -149,37 +133,40 @@ class ModelMaker {
     if (model.objects.size() > max_objects) { return; }  // more than a scene may have: refused later
     raycast::Placement placement{glm::dmat3(state.transform), glm::dvec3(state.transform[3]), false};
     if (!made.object || raycast::check(*made.object, placement)) {
-      return notes_.add("shapes without size, or flattened by their transform, are left out", at(node));
+      return notes_.add("shapes without size, or flattened by their transform, are left out", at_line_of(node));
     }
     const bool by_part = state.binding == Binding::per_part || state.binding == Binding::per_part_indexed;
     std::vector<std::uint32_t> materials;
     for (const std::size_t part : parts) { materials.push_back(looks_.material(state, {by_part ? part : 0})); }
     if (!by_part) { materials.resize(1); }
-    model.objects.push_back({node.name.empty() ? kind : node.name, std::move(made.object), placement, std::move(materials)});
+    model.objects.push_back({name_of(node, state, kind), std::move(made.object), placement, std::move(materials)});
     model.origins.push_back({kind, node.place});
   }
 
-  void cube(const Node& node, const State& state) {
-    const glm::dvec3 half = 0.5 * glm::dvec3(node.number("width", 2.0), node.number("height", 2.0), node.number("depth", 2.0));
+  void box(const Node& node, const State& state) {
+    const glm::dvec3 sides(node.number("width", 2.0), node.number("height", 2.0), node.number("depth", 2.0));
+    const glm::dvec3 half = 0.5 * node.vector("size", sides);
     // Parts: front, back, left, right, top, bottom. Sheets: x0 x1 y0 y1 z0 z1.
     add(raycast::BoxObject::make(-half, half), "box", {2, 3, 5, 4, 1, 0}, node, state);
   }
 
-  // Which of these parts are there, in this order? "ALL" stands for each.
+  // Which of these parts are there, in this order? "ALL" stands for each. In VRML 97 each has a field of its own.
   template <std::size_t n>
-  static std::array<bool, n> parts(const Node& node, const std::array<std::string_view, n>& names) {
+  static std::array<bool, n> parts(const Node& node, const std::array<std::string_view, n>& names,
+                                   const std::array<std::string_view, n>& fields) {
     std::array<bool, n> there{};
     const Field* const field = node.find("parts");
     for (std::size_t i = 0; i < n; ++i) {
       there[i] = field == nullptr || std::any_of(field->words.begin(), field->words.end(),
                                                  [&](const std::string& word) { return word == names[i] || word == "ALL"; });
+      there[i] = there[i] && !node.is_false(fields[i]);
     }
     return there;
   }
 
   void cylinder(const Node& node, const State& state) {
     const double radius = node.number("radius", 1.0), height = node.number("height", 2.0);
-    const auto [sides, top, bottom] = parts<3>(node, {"SIDES", "TOP", "BOTTOM"});
+    const auto [sides, top, bottom] = parts<3>(node, {"SIDES", "TOP", "BOTTOM"}, {"side", "top", "bottom"});
     if (sides && top && bottom) {  // sheets: side, bottom, top
       return add(raycast::Cylinder::make({0.0, -0.5 * height, 0.0}, {0.0, height, 0.0}, radius), "cylinder", {0, 2, 1}, node, state);
     }
@@ -188,7 +175,7 @@ class ModelMaker {
 
   void cone(const Node& node, const State& state) {
     const double radius = node.number("bottomRadius", 1.0), height = node.number("height", 2.0);
-    const auto [sides, bottom] = parts<2>(node, {"SIDES", "BOTTOM"});
+    const auto [sides, bottom] = parts<2>(node, {"SIDES", "BOTTOM"}, {"side", "bottom"});
     if (sides && bottom) {
       return add(raycast::Cone::make({0.0, -0.5 * height, 0.0}, {0.0, height, 0.0}, radius, 0.0), "cone", {0, 1}, node, state);
     }
@@ -209,10 +196,10 @@ class ModelMaker {
       for (int i = 0; i < sides_of_part; ++i) {
         const double a = 2.0 * std::numbers::pi * i / sides_of_part, r = end == 0 ? shape.low : shape.high;
         rings[static_cast<std::size_t>(end)].push_back(static_cast<std::uint32_t>(model.positions.size()));
-        model.positions.push_back(point(state, {r * std::sin(a), (end - 0.5) * shape.height, r * std::cos(a)}));
+        model.positions.push_back(placed(state, {r * std::sin(a), (end - 0.5) * shape.height, r * std::cos(a)}));
       }
     }
-    const std::uint32_t group = new_group(node);
+    const std::uint32_t group = new_group(node, state);
     const auto polygon = [&](std::vector<std::uint32_t> corners, std::size_t part) {
       if (mirrored(state)) { std::reverse(corners.begin(), corners.end()); }
       model.polygon(corners, looks_.material(state, {by_part ? part : 0}, true), group, node.place.line);
@@ -225,28 +212,39 @@ class ModelMaker {
     if (shape.bottom) { polygon({rings[0].rbegin(), rings[0].rend()}, shape.high > 0.0 ? 2 : 1); }
   }
 
+  static std::string name_of(const Node& node, const State& state, std::string otherwise) {
+    if (!node.name.empty()) { return node.name; }
+    return state.named != nullptr ? state.named->name : std::move(otherwise);
+  }
   static bool mirrored(const State& state) { return glm::determinant(glm::dmat3(state.transform)) < 0.0; }
-  std::uint32_t new_group(const Node& node) {
+  std::uint32_t new_group(const Node& node, const State& state) {
     const auto file = files_.find(&node);
     model.begin_part(file == files_.end() ? "" : file->second);
-    model.groups.push_back(node.name.empty() ? "faces" + std::to_string(model.groups.size()) : node.name);
+    model.groups.push_back(name_of(node, state, "faces" + std::to_string(model.groups.size())));
     return static_cast<std::uint32_t>(model.groups.size() - 1);
   }
 
-  void face_set(const Node& node, const State& state) {
-    const Field* const given = node.find("coordIndex");
-    const Field* const points = state.coordinates != nullptr ? state.coordinates->find("point") : nullptr;
-    if (given == nullptr || points == nullptr || points->numbers.size() < 3) {
-      return notes_.add("face sets without coordinates are left out", at(node));
+  void made_face_set(const Node& node, const std::optional<Faces>& faces, const State& state) {
+    if (!faces) {
+      return notes_.add("grids and extrusions with fewer numbers than they need, or too many, are left out", at_line_of(node));
     }
-    if (state.creased) { notes_.add("a creaseAngle changes how polygons are shaded, not where they are: they stay flat", at(node)); }
+    face_set(node, &faces->index, &faces->points, state);
+  }
+
+  void face_set(const Node& node, const Field* given, const Field* points, const State& state) {
+    if (given == nullptr || points == nullptr || points->numbers.size() < 3) {
+      return notes_.add("face sets without coordinates are left out", at_line_of(node));
+    }
+    if (state.creased) {
+      notes_.add("a creaseAngle changes how polygons are shaded, not where they are: they stay flat", at_line_of(node));
+    }
     const Field& index = *given;
     const auto count = static_cast<double>(points->numbers.size() / 3);
-    const std::uint32_t group = new_group(node);
+    const std::uint32_t group = new_group(node, state);
     const bool turn = state.clockwise != mirrored(state), two_sided = !(state.ordered && state.solid);
     std::map<std::uint32_t, std::uint32_t> vertices;  // of the file, here
     std::vector<std::uint32_t> corners;
-    Looks::FaceCorners of;
+    Looks::FaceCorners of{given};
     for (std::size_t i = 0; i <= index.numbers.size(); ++i) {
       const double number = i < index.numbers.size() ? index.numbers[i] : -1.0;
       if (number >= 0.0) {
@@ -258,7 +256,7 @@ class ModelMaker {
         const auto v = static_cast<std::uint32_t>(number);
         const auto [known, is_new] = vertices.emplace(v, static_cast<std::uint32_t>(model.positions.size()));
         if (is_new) {
-          model.positions.push_back(point(state, {points->numbers[3 * v], points->numbers[3 * v + 1], points->numbers[3 * v + 2]}));
+          model.positions.push_back(placed(state, {points->numbers[3 * v], points->numbers[3 * v + 1], points->numbers[3 * v + 2]}));
         }
         corners.push_back(known->second);
         continue;
@@ -307,6 +305,6 @@ bool begins_vrml(std::string_view bytes) { return bytes.starts_with("#VRML"); }
 
 namespace apps::intake {
 
-constinit const ModelFormat wrl{".wrl", "VRML 1.0", UpAxis::y, vrml::begins_vrml, vrml::read_vrml};
+constinit const ModelFormat wrl{".wrl", "VRML", UpAxis::y, vrml::begins_vrml, vrml::read_vrml};
 
 }  // namespace apps::intake

@@ -13,7 +13,8 @@ using Kind = FieldType::Kind;
 constexpr FieldType number{Kind::numbers, 1, false}, vec2{Kind::numbers, 2, false}, vec3{Kind::numbers, 3, false},
     rotation{Kind::numbers, 4, false}, matrix{Kind::numbers, 16, false}, numbers{Kind::numbers, 1, true}, vec2s{Kind::numbers, 2, true},
     vec3s{Kind::numbers, 3, true}, rotations{Kind::numbers, 4, true}, indices{Kind::indices, 1, true}, image{Kind::image, 1, false},
-    text{Kind::strings, 1, false}, texts{Kind::strings, 1, true}, word{Kind::words, 1, false};
+    text{Kind::strings, 1, false}, texts{Kind::strings, 1, true}, word{Kind::words, 1, false}, node{Kind::nodes, 1, false},
+    nodes{Kind::nodes, 1, true};
 
 // A node with its fields; true: it may have children.
 const std::vector<NodeType> types{
@@ -84,11 +85,13 @@ struct NamedType {
   std::string_view name;
   FieldType type;
 };
-constexpr NamedType named[] = {
-    {"SFBitMask", word}, {"SFBool", word},     {"SFColor", vec3},        {"SFEnum", word},          {"SFFloat", number}, {"SFImage", image},
-    {"SFLong", number},  {"SFMatrix", matrix}, {"SFRotation", rotation}, {"SFString", text},        {"SFVec2f", vec2},   {"SFVec3f", vec3},
-    {"MFColor", vec3s},  {"MFFloat", numbers}, {"MFLong", indices},      {"MFRotation", rotations}, {"MFString", texts}, {"MFVec2f", vec2s},
-    {"MFVec3f", vec3s},  {"SFTime", number},   {"MFEnum", texts}};
+constexpr NamedType named[] = {{"SFBitMask", word},      {"SFBool", word},     {"SFColor", vec3},    {"SFEnum", word},
+                               {"SFFloat", number},      {"SFImage", image},   {"SFLong", number},   {"SFMatrix", matrix},
+                               {"SFRotation", rotation}, {"SFString", text},   {"SFVec2f", vec2},    {"SFVec3f", vec3},
+                               {"MFColor", vec3s},       {"MFFloat", numbers}, {"MFLong", indices},  {"MFRotation", rotations},
+                               {"MFString", texts},      {"MFVec2f", vec2s},   {"MFVec3f", vec3s},   {"SFTime", number},
+                               {"MFEnum", texts},        {"SFInt32", number},  {"MFInt32", indices}, {"MFTime", numbers},
+                               {"SFNode", node},         {"MFNode", nodes}};
 
 }  // namespace spec
 
@@ -100,7 +103,7 @@ auto find(const List& list, std::string_view name) {
 
 }  // namespace
 
-const NodeType* node_type(std::string_view name) { return find(spec::types, name); }
+const NodeType* node_type(Version version, std::string_view name) { return find(node_types(version), name); }
 
 const FieldType* field_type(const NodeType& node, std::string_view field) {
   const FieldEntry* const entry = find(node.fields, field);
@@ -112,6 +115,29 @@ const FieldType* named_type(std::string_view name) {
   return entry == nullptr ? nullptr : &entry->type;
 }
 
-std::span<const NodeType> node_types() { return spec::types; }
+std::span<const NodeType> node_types(Version version) { return version == Version::v97 ? node_types_97() : spec::types; }
+
+// --- what a node says
+
+double Node::number(std::string_view field, double otherwise) const {
+  const Field* const found = find(field);
+  return found != nullptr && !found->numbers.empty() ? found->numbers[0] : otherwise;
+}
+
+glm::dvec3 Node::vector(std::string_view field, const glm::dvec3& otherwise) const {
+  const Field* const found = find(field);
+  return found != nullptr && found->numbers.size() >= 3 ? glm::dvec3(found->numbers[0], found->numbers[1], found->numbers[2]) : otherwise;
+}
+
+glm::dvec4 Node::rotation(std::string_view field) const {
+  const Field* const found = find(field);
+  if (found == nullptr || found->numbers.size() < 4) { return {0.0, 0.0, 1.0, 0.0}; }
+  return {found->numbers[0], found->numbers[1], found->numbers[2], found->numbers[3]};
+}
+
+std::string_view Node::word(std::string_view field, std::string_view otherwise) const {
+  const Field* const found = find(field);
+  return found != nullptr && !found->words.empty() ? std::string_view(found->words[0]) : otherwise;
+}
 
 }  // namespace apps::vrml

@@ -1,336 +1,346 @@
 // SPDX-License-Identifier: MIT
-// Text to nodes. The grammar is that of a node: [DEF name] Type { fields and children }, or USE name. Blanks and commas separate.
-#include <charconv>
+// Text to nodes. The grammar is that of a node: [DEF name] Type { fields and children }, or USE name. In VRML 97 there are prototypes, too:
+// nodes that a file makes of others.
+#include <utility>
 
-#include "apps/mesh_file/reading.hpp"
 #include "apps/vrml/scene_graph.hpp"
+#include "apps/vrml/value_reader.hpp"
 #include "apps/words.hpp"
 
 namespace apps::vrml {
 namespace {
 
-constexpr std::string_view marks = "{}[]()|";
-
-class Tokens {
- public:
-  explicit Tokens(std::string_view text) : text_(text) { next(); }
-
-  // The present one: a word, a mark, or a string with its quotes; empty at the end.
-  [[nodiscard]] std::string_view token() const { return token_; }
-  [[nodiscard]] Place place() const { return at_; }
-  [[nodiscard]] bool is(std::string_view text) const { return token_ == text; }
-  [[nodiscard]] bool at_end() const { return token_.empty(); }
-  [[nodiscard]] bool is_string() const { return !token_.empty() && token_[0] == '"'; }
-  [[nodiscard]] bool is_word() const { return !at_end() && !is_string() && marks.find(token_[0]) == marks.npos; }
-
-  void next() {
-    skip();
-    at_ = {line_, static_cast<std::uint32_t>(i_ - line_begin_ + 1)};
-    const std::size_t begin = i_;
-    if (i_ >= text_.size()) {
-      token_ = {};
-    } else if (text_[i_] == '"') {
-      for (++i_; i_ < text_.size() && text_[i_] != '"'; ++i_) {
-        if (text_[i_] == '\\' && i_ + 1 < text_.size()) { ++i_; }
-        line_end();
-      }
-      i_ = std::min(i_ + 1, text_.size());
-      token_ = text_.substr(begin, i_ - begin);
-    } else if (marks.find(text_[i_]) != marks.npos) {
-      token_ = text_.substr(i_++, 1);
-    } else {
-      while (i_ < text_.size() && !is_blank(text_[i_]) && text_[i_] != '"' && text_[i_] != '#' && marks.find(text_[i_]) == marks.npos) {
-        ++i_;
-      }
-      token_ = text_.substr(begin, i_ - begin);
-    }
-  }
-
- private:
-  static bool is_blank(char c) { return static_cast<unsigned char>(c) <= 0x20 || c == ','; }
-  // Lines end with LF, CR LF or CR.
-  void line_end() {
-    if (text_[i_] != '\n' && (text_[i_] != '\r' || text_.substr(i_ + 1, 1) == "\n")) { return; }
-    ++line_;
-    line_begin_ = i_ + 1;
-  }
-  void skip() {
-    for (bool comment = false; i_ < text_.size() && (comment || is_blank(text_[i_]) || text_[i_] == '#'); ++i_) {
-      comment = text_[i_] == '#' || (comment && text_[i_] != '\n' && text_[i_] != '\r');
-      line_end();
-    }
-  }
-
-  std::string_view text_, token_;
-  std::size_t i_ = 0, line_begin_ = 0;
-  std::uint32_t line_ = 1;
-  Place at_;
-};
-
-// Hexadecimal, too.
-std::optional<double> number_of(std::string_view word) {
-  if (word.starts_with("0x") || word.starts_with("0X")) {
-    std::uint32_t value = 0;
-    const auto [end, code] = std::from_chars(word.data() + 2, word.data() + word.size(), value, 16);
-    return code == std::errc() && end == word.data() + word.size() ? std::optional<double>(value) : std::nullopt;
-  }
-  return mesh_file::to_number(word);
-}
-
 class Parser {
  public:
-  Parser(std::string_view text, Errors& errors, Notes& notes) : tokens_(text), errors_(errors), notes_(notes) {}
+  Parser(std::string_view text, Version version, Errors& errors, Notes& notes)
+      : in_(text, version, errors), version_(version), notes_(notes) {}
 
   std::shared_ptr<const Node> run() {
     auto root = std::make_shared<Node>();
     root->type = "Group";
-    while (!tokens_.at_end() && ok()) {  // one node; extensions of others have several
-      if (auto node = read(0)) { root->children.push_back(std::move(node)); }
+    while (!in_.at_end() && ok()) {  // one node; extensions of VRML 1.0, and VRML 97, have several
+      if (auto node = read()) { root->children.push_back(std::move(node)); }
     }
-    if (ok() && root->children.empty()) { fail("expected a node such as Separator, found the end of the file"); }
+    if (ok() && root->children.empty()) { fail("expected a node such as " + example() + ", found the end of the file"); }
     return ok() ? root : nullptr;
   }
 
  private:
-  using FieldTypes = std::map<std::string, FieldType, std::less<>>;
-
-  // What is behind the first error is not understood, so nothing is said about it.
-  [[nodiscard]] bool ok() const { return errors_.count() == 0; }
-  void fail(Place place, std::string sentence) {
-    if (ok()) { errors_.add(place, std::move(sentence)); }
-  }
-  void fail(std::string sentence) { fail(tokens_.place(), std::move(sentence)); }
-  [[nodiscard]] std::string found() const {
-    return tokens_.at_end() ? "found the end of the file" : "found " + mesh_file::shown(tokens_.token());
-  }
+  [[nodiscard]] bool ok() const { return in_.ok(); }
+  void fail(Place place, std::string sentence) { in_.fail(place, std::move(sentence)); }
+  void fail(std::string sentence) { in_.fail(std::move(sentence)); }
+  void fail_too_deep(Place place) { fail(place, "nodes are nested deeper than " + std::to_string(graph_limits.deepest)); }
+  [[nodiscard]] std::string found() const { return in_.found(); }
+  [[nodiscard]] std::string example() const { return version_ == Version::v97 ? "Shape" : "Separator"; }
   static std::string at(Place place) { return std::to_string(place.line) + ":" + std::to_string(place.column); }
 
-  std::shared_ptr<const Node> read(std::size_t depth) {
-    if (depth > graph_limits.deepest) {
-      fail("nodes are nested deeper than " + std::to_string(graph_limits.deepest));
+  // Null when what stood there makes no node, and after an error.
+  std::shared_ptr<const Node> read() {
+    if (depth_ > graph_limits.deepest) {
+      fail_too_deep(in_.place());
       return nullptr;
     }
+    if (is_statement()) { return statement(); }
     std::string name;
-    if (tokens_.is("USE")) {
-      tokens_.next();
-      const auto known = defined_.find(tokens_.token());
+    if (in_.take("USE")) {
+      const auto known = defined_.find(in_.token());
       if (known == defined_.end()) {
-        fail(tokens_.is_word() ? "USE names " + mesh_file::shown(tokens_.token()) + ", but no node before it is called that by DEF"
-                               : "expected a name after USE, " + found());
+        fail(in_.is_word() ? "USE names " + mesh_file::shown(in_.token()) + ", but no node before it is called that by DEF"
+                           : "expected a name after USE, " + found());
         return nullptr;
       }
-      tokens_.next();
+      in_.next();
       return known->second;
     }
-    if (tokens_.is("DEF")) {
-      tokens_.next();
-      if (!tokens_.is_word()) { fail("expected a name after DEF, " + found()); }
-      name = tokens_.token();
-      tokens_.next();
+    if (in_.take("DEF")) {
+      if (!in_.is_word()) { fail("expected a name after DEF, " + found()); }
+      name = in_.token();
+      in_.next();
     }
-    if (!tokens_.is_word()) {
-      fail("expected a node such as Separator, " + found());
+    if (!in_.is_word()) {
+      fail("expected a node such as " + example() + ", " + found());
       return nullptr;
     }
     auto node = std::make_shared<Node>();
-    node->type = tokens_.token();
+    node->type = in_.token();
     node->name = name;
-    node->place = tokens_.place();
-    tokens_.next();
-    if (!tokens_.is("{")) {
+    node->place = in_.place();
+    node->version = version_;
+    in_.next();
+    if (!in_.is("{")) {
       std::vector<std::string_view> known;
-      for (const NodeType& type : node_types()) { known.push_back(type.name); }
+      for (const NodeType& type : node_types(version_)) { known.push_back(type.name); }
       fail("expected '{' after the node " + mesh_file::shown(node->type) + ", " + found() + suggestion(node->type, known));
       return nullptr;
     }
-    tokens_.next();
-    body(*node, depth);
-    if (!name.empty()) { defined_[name] = node; }
-    return node;
+    in_.next();
+    const auto prototype = prototypes_.find(node->type);
+    ++depth_;
+    body(*node, prototype.get());
+    --depth_;
+    if (!ok()) { return nullptr; }
+    settle(*node);
+    if (prototype != nullptr && prototype->root != nullptr) { node = instance_of(*prototype, *node); }
+    if (node != nullptr && node->height > graph_limits.deepest) { fail_too_deep(node->place); }  // by uses of uses
+    if (!name.empty() && ok()) { defined_[name] = node; }
+    return ok() ? node : nullptr;
   }
 
-  // To behind the closing brace.
-  void body(Node& node, std::size_t depth) {
-    const NodeType* type = node_type(node.type);
+  // To behind the closing brace. `prototype`: of which the node is an instance; null: of none.
+  void body(Node& node, const Prototype* prototype) {
+    const NodeType* type = prototype == nullptr ? node_type(version_, node.type) : nullptr;
     FieldTypes own;  // that the node itself declares
-    while (ok() && !tokens_.is("}")) {
-      if (tokens_.at_end()) {
+    if (version_ == Version::v97 && type == nullptr && (prototype == nullptr || prototype->root == nullptr)) {
+      if (prototype != nullptr) {
+        notes_.add("the prototype " + mesh_file::shown(node.type) + " is in another file: its instances are passed over", at_line_of(node));
+      } else if (depth_ == 1 && node_type(Version::v1, node.type) != nullptr) {
+        return fail(node.place, node.type + " is a node of VRML 1.0: let the first line of the file be '#VRML V1.0 ascii'");
+      } else if (node.type != "Script") {
+        note_unknown(node);
+      }
+      return skip_to("}", node.place);
+    }
+    while (ok() && !in_.is("}")) {
+      if (in_.at_end()) {
         return fail("expected '}' to close the node " + node.type + " that begins at " + at(node.place) + ", " + found());
       }
-      if (!tokens_.is_word()) { return fail("expected a field or a node in " + node.type + ", " + found()); }
-      const std::string_view word = tokens_.token();
-      const auto declared = own.find(word);
-      const FieldType* const field = declared != own.end() ? &declared->second : type != nullptr ? field_type(*type, word) : nullptr;
-      if (word == "fields") {
-        tokens_.next();
+      if (!in_.is_word()) { return fail("expected a field or a node in " + node.type + ", " + found()); }
+      const std::string_view word = in_.token();
+      const FieldTypes& declared = prototype != nullptr ? prototype->types : own;
+      const auto among = declared.find(word);
+      const FieldType* const field = among != declared.end() ? &among->second : type != nullptr ? field_type(*type, word) : nullptr;
+      if (version_ == Version::v1 && word == "fields") {
+        in_.next();
         declare(own);
-      } else if (word == "isA") {
-        tokens_.next();
-        Field names{tokens_.place(), {}, {}, {}};
+      } else if (version_ == Version::v1 && word == "isA") {
+        in_.next();
+        Field names;
         value({FieldType::Kind::strings, 1, true}, "isA", names);
         for (const std::string& name : names.words) {
-          if (type != nullptr || node_type(name) == nullptr) { continue; }
-          type = node_type(name);
+          if (type != nullptr || node_type(version_, name) == nullptr) { continue; }
+          type = node_type(version_, name);
           node.type = name;
         }
       } else if (field != nullptr) {
-        Field& out = node.fields[std::string(word)];
-        tokens_.next();
-        out = {tokens_.place(), {}, {}, {}};
-        value(*field, word, out);
-      } else if (type == nullptr && own.empty()) {
-        notes_.add("nodes of the type " + mesh_file::shown(node.type) + " are not known: passed over",
-                   "at line " + std::to_string(node.place.line));
-        return skip_body(node.place);
-      } else if ((type != nullptr && type->group) || type == nullptr || node_type(word) != nullptr || word == "DEF" || word == "USE") {
-        if (auto child = read(depth + 1)) { node.children.push_back(std::move(child)); }
+        in_.next();
+        if (auto read_value = value_or_is(*field, word)) { node.fields[std::string(word)] = std::move(read_value); }
+      } else if (is_statement()) {
+        statement();
+      } else if (type == nullptr && own.empty() && prototype == nullptr) {
+        note_unknown(node);
+        return skip_to("}", node.place);
+      } else if (may_be_child(type, word)) {
+        if (auto child = read()) { node.children.push_back(std::move(child)); }
       } else {
-        std::vector<std::string_view> known;
-        for (const FieldEntry& entry : type->fields) { known.push_back(entry.name); }
-        notes_.add("a " + node.type + " has no field " + mesh_file::shown(word) + suggestion(word, known) + ": passed over",
-                   "at line " + std::to_string(tokens_.place().line));
-        skip_value();
+        unknown_field(node.type, word, type, declared);
       }
     }
-    tokens_.next();
+    in_.next();
   }
 
-  // Of a field that is not known: what is in brackets, or numbers and strings, or one word.
+  [[nodiscard]] bool may_be_child(const NodeType* type, std::string_view word) const {
+    if (word == "DEF" || word == "USE" || node_type(version_, word) != nullptr) { return true; }
+    return version_ == Version::v1 ? type == nullptr || type->group : prototypes_.find(word) != nullptr;
+  }
+
+  void note_unknown(const Node& node) {
+    notes_.add("nodes of the type " + mesh_file::shown(node.type) + " are not known: passed over", at_line_of(node));
+  }
+
+  void unknown_field(const std::string& node, std::string_view word, const NodeType* type, const FieldTypes& declared) {
+    const Place place = in_.place();
+    in_.next();
+    if (version_ == Version::v97 && in_.take("IS")) { return in_.next(); }  // an event of the node is that of the prototype
+    std::vector<std::string_view> known;
+    for (const auto& [name, unused] : declared) { known.push_back(name); }
+    for (std::size_t i = 0; type != nullptr && i < type->fields.size(); ++i) { known.push_back(type->fields[i].name); }
+    notes_.add("a " + node + " has no field " + mesh_file::shown(word) + suggestion(word, known) + ": passed over",
+               "at line " + std::to_string(place.line));
+    skip_value();
+  }
+
+  // Of a field that is not known: what is in brackets, or numbers and strings, or one word or node.
   void skip_value() {
-    tokens_.next();
-    const bool brackets = tokens_.is("["), parentheses = tokens_.is("(");
-    if (brackets || parentheses) {
-      while (!tokens_.at_end() && !tokens_.is(brackets ? "]" : ")")) { tokens_.next(); }
-      return tokens_.next();
+    const Place place = in_.place();
+    if (in_.take("[")) {
+      skip_to("]", place);
+    } else if (in_.take("(")) {
+      skip_to(")", place);
+    } else if (in_.is_number_or_string()) {
+      while (in_.is_number_or_string()) { in_.next(); }
+    } else if (is_statement()) {
+      statement();
+    } else if (in_.is("DEF") || in_.is("USE")) {
+      read();
+    } else if (in_.is_word()) {
+      in_.next();
+      if (in_.take("{")) { skip_to("}", place); }
     }
-    const auto is_value = [&] { return tokens_.is_string() || (tokens_.is_word() && number_of(tokens_.token())); };
-    if (tokens_.is_word() && !is_value()) { return tokens_.next(); }
-    while (is_value()) { tokens_.next(); }
   }
 
-  void skip_body(Place opened) {
-    for (std::size_t depth = 1; depth > 0; tokens_.next()) {
-      if (tokens_.at_end()) { return fail("expected '}' to close the node that begins at " + at(opened) + ", " + found()); }
-      depth += tokens_.is("{") ? 1 : 0;
-      depth -= tokens_.is("}") ? 1 : 0;
-    }
+  // From behind a mark to behind that which closes it. What is named in between can be used, but is nothing.
+  void skip_to(std::string_view close, Place opened) {
+    in_.skip_to(close, opened, [this](std::string_view name) { defined_[std::string(name)] = std::make_shared<Node>(); });
   }
 
   // fields [ SFFloat radius, MFString isA ]
   void declare(FieldTypes& own) {
-    if (!tokens_.is("[")) { return fail("expected '[' after 'fields', " + found()); }
-    for (tokens_.next(); ok() && !tokens_.is("]");) {
-      const FieldType* const type = named_type(tokens_.token());
-      if (type == nullptr) { return fail("expected the type of a field such as SFFloat, " + found()); }
-      tokens_.next();
-      if (!tokens_.is_word()) { return fail("expected the name of a field, " + found()); }
-      own.emplace(tokens_.token(), *type);
-      tokens_.next();
+    if (!in_.is("[")) { return fail("expected '[' after 'fields', " + found()); }
+    for (in_.next(); ok() && !in_.is("]");) { declare_one(own); }
+    in_.next();
+  }
+  // SFFloat radius. Null after an error.
+  const FieldType* declare_one(FieldTypes& own) {
+    const FieldType* const type = named_type(in_.token());
+    if (type == nullptr) {
+      fail("expected the type of a field such as SFFloat, " + found());
+      return nullptr;
     }
-    tokens_.next();
+    in_.next();
+    if (!in_.is_word()) {
+      fail("expected the name of a field, " + found());
+      return nullptr;
+    }
+    own.emplace(in_.token(), *type);
+    in_.next();
+    return type;
+  }
+
+  // --- prototypes
+
+  // What may stand in the place of a node in VRML 97 and makes none.
+  [[nodiscard]] bool is_statement() const {
+    return version_ == Version::v97 && (in_.is("NULL") || in_.is("ROUTE") || in_.is("PROTO") || in_.is("EXTERNPROTO"));
+  }
+  std::nullptr_t statement() {
+    const int words = in_.is("ROUTE") ? 4 : in_.is("NULL") ? 1 : 0;  // ROUTE node.event TO node.event
+    if (words == 0) { declare_prototype(in_.is("EXTERNPROTO")); }
+    for (int i = 0; i < words; ++i) { in_.next(); }
+    return nullptr;
+  }
+
+  // PROTO name [ fields ] { nodes }, of which the first stands for an instance; EXTERNPROTO name [ fields ] "file".
+  void declare_prototype(bool external) {
+    const Place place = in_.place();
+    in_.next();
+    if (depth_ > graph_limits.deepest) { return fail_too_deep(place); }
+    if (!in_.is_word()) { return fail("expected the name of a prototype, " + found()); }
+    const std::string name(in_.token());
+    in_.next();
+    if (!in_.is("[")) { return fail("expected '[' after the prototype " + mesh_file::shown(name) + ", " + found()); }
+    const auto* const outer_fields = std::exchange(fields_of_prototype_, nullptr);
+    prototypes_.enter();
+    ++depth_;
+    auto made = std::make_shared<Prototype>();
+    for (in_.next(); ok() && !in_.is("]");) { declare_field(*made, external); }
+    in_.next();
+    if (ok() && external) {
+      Field file;
+      value({FieldType::Kind::strings, 1, true}, name, file);
+    } else if (ok()) {
+      fields_of_prototype_ = &made->types;
+      auto outer_names = std::exchange(defined_, {});  // the nodes of the body have names of their own
+      body_of_prototype(*made, place);
+      defined_ = std::move(outer_names);
+    }
+    --depth_;
+    prototypes_.leave();
+    fields_of_prototype_ = outer_fields;
+    prototypes_.declare(name, std::move(made));
+  }
+
+  // field SFColor color 1 0 0; exposedField; eventIn SFBool on; eventOut
+  void declare_field(Prototype& made, bool external) {
+    const bool field = in_.is("field") || in_.is("exposedField");
+    if (!field && !in_.is("eventIn") && !in_.is("eventOut")) {
+      return fail("expected field, exposedField, eventIn, eventOut or ']', " + found());
+    }
+    in_.next();
+    FieldTypes one;
+    if (declare_one(one) == nullptr) { return; }
+    const auto& [name, type] = *made.types.insert_or_assign(one.begin()->first, one.begin()->second).first;
+    if (!field || external) { return; }
+    if (auto otherwise = value_or_is(type, name)) { made.defaults[name] = std::move(otherwise); }
+  }
+
+  void body_of_prototype(Prototype& made, Place place) {
+    if (!in_.is("{")) { return fail("expected '{' and the nodes of the prototype, " + found()); }
+    for (in_.next(); ok() && !in_.is("}");) {
+      if (in_.at_end()) { return fail("expected '}' to close the prototype that begins at " + at(place) + ", " + found()); }
+      auto node = read();
+      if (made.root == nullptr) { made.root = std::move(node); }
+    }
+    in_.next();
+    if (made.root == nullptr) { made.root = std::make_shared<Node>(); }  // one that does nothing
+  }
+
+  std::shared_ptr<Node> instance_of(const Prototype& prototype, const Node& call) {
+    const auto made = instance(prototype, call.fields, copies_left_);
+    if (made == nullptr || made->children.size() >= copies_left_) {
+      fail(call.place, "instances of prototypes make more than " + std::to_string(graph_limits.most_visits) + " nodes");
+      return nullptr;
+    }
+    copies_left_ -= made->children.size();
+    auto node = std::make_shared<Node>(*made);
+    if (!call.name.empty()) { node->name = call.name; }
+    return node;
+  }
+
+  // --- values
+
+  // Null when the value is that of a field that the prototype does not have, or that has another type.
+  std::shared_ptr<const Field> value_or_is(const FieldType& type, std::string_view field) {
+    auto out = std::make_shared<Field>();
+    out->place = in_.place();
+    if (version_ == Version::v1 || !in_.is("IS")) {
+      value(type, field, *out);
+      return out;
+    }
+    in_.next();
+    out->is = in_.token();
+    bool fits = false;
+    if (fields_of_prototype_ != nullptr) {
+      const auto named = fields_of_prototype_->find(out->is);
+      fits = named != fields_of_prototype_->end() && named->second.kind == type.kind && named->second.count == type.count;
+    }
+    if (!fits) {
+      notes_.add(
+          "no prototype around has a field " + mesh_file::shown(out->is) + " of the type of '" + std::string(field) + "': passed over",
+          "at line " + std::to_string(out->place.line));
+    }
+    in_.next();
+    return fits ? out : nullptr;
   }
 
   void value(const FieldType& type, std::string_view field, Field& out) {
-    if (tokens_.is("~")) { tokens_.next(); }
-    if (type.kind == FieldType::Kind::image) {  // width, height, components, then a number for each pixel
-      for (int i = 0; i < 3 && ok(); ++i) { number(field, out); }
-      const double pixels = ok() ? out.numbers[0] * out.numbers[1] : 0.0;
-      for (double i = 0.0; i < pixels && ok(); i += 1.0) { number(field, out); }
-      return;
+    if (type.kind != FieldType::Kind::nodes) { return in_.value(type, field, out); }
+    const bool brackets = type.many && in_.take("[");
+    while (ok() && !(brackets && in_.is("]"))) {
+      if (auto node = read()) { out.nodes.push_back(std::move(node)); }
+      if (!brackets) { return; }
     }
-    if (!type.many || !tokens_.is("[")) { return single(type, field, out); }
-    for (tokens_.next(); ok() && !tokens_.is("]");) {
-      if (tokens_.at_end()) { return fail("expected ']' to close the values of '" + std::string(field) + "', " + found()); }
-      single(type, field, out);
-    }
-    tokens_.next();
+    in_.next();
   }
 
-  void single(const FieldType& type, std::string_view field, Field& out) {
-    switch (type.kind) {
-      case FieldType::Kind::strings:
-        if (!tokens_.is_string() && !tokens_.is_word()) {
-          return fail("expected a string in quotes for '" + std::string(field) + "', " + found());
-        }
-        out.words.push_back(unquoted(tokens_.token()));
-        return tokens_.next();
-      case FieldType::Kind::words:
-        if (!tokens_.is("(")) {
-          if (!tokens_.is_word()) { return fail("expected a word for '" + std::string(field) + "', " + found()); }
-          out.words.emplace_back(tokens_.token());
-          return tokens_.next();
-        }
-        for (tokens_.next(); ok() && !tokens_.is(")"); tokens_.next()) {
-          if (tokens_.is("|")) { continue; }
-          if (!tokens_.is_word()) { return fail("expected a word or ')' for '" + std::string(field) + "', " + found()); }
-          out.words.emplace_back(tokens_.token());
-        }
-        return tokens_.next();
-      case FieldType::Kind::indices:
-        out.places.push_back(tokens_.place());
-        return number(field, out);
-      default:
-        for (unsigned i = 0; i < type.count && ok(); ++i) { number(field, out); }
-    }
-  }
-
-  void number(std::string_view field, Field& out) {
-    const auto value = number_of(tokens_.token());
-    if (!value) { return fail("expected a number for '" + std::string(field) + "', " + found()); }
-    out.numbers.push_back(*value);
-    tokens_.next();
-  }
-
-  static std::string unquoted(std::string_view token) {
-    if (token.empty() || token[0] != '"') { return std::string(token); }
-    token.remove_prefix(1);
-    if (!token.empty() && token.back() == '"') { token.remove_suffix(1); }
-    std::string text;
-    for (std::size_t i = 0; i < token.size(); ++i) {
-      if (token[i] == '\\' && i + 1 < token.size()) { ++i; }
-      text += token[i];
-    }
-    return text;
-  }
-
-  Tokens tokens_;
-  Errors& errors_;
+  ValueReader in_;
+  Version version_;
   Notes& notes_;
+  std::size_t depth_ = 0;
   std::map<std::string, std::shared_ptr<const Node>, std::less<>> defined_;
+  Prototypes prototypes_;
+  const FieldTypes* fields_of_prototype_ = nullptr;  // of the one whose body is read
+  std::size_t copies_left_ = graph_limits.most_visits;
 };
 
 }  // namespace
 
-double Node::number(std::string_view field, double otherwise) const {
-  const Field* const found = find(field);
-  return found != nullptr && !found->numbers.empty() ? found->numbers[0] : otherwise;
-}
-
-glm::dvec3 Node::vector(std::string_view field, const glm::dvec3& otherwise) const {
-  const Field* const found = find(field);
-  return found != nullptr && found->numbers.size() >= 3 ? glm::dvec3(found->numbers[0], found->numbers[1], found->numbers[2]) : otherwise;
-}
-
-glm::dvec4 Node::rotation(std::string_view field) const {
-  const Field* const found = find(field);
-  if (found == nullptr || found->numbers.size() < 4) { return {0.0, 0.0, 1.0, 0.0}; }
-  return {found->numbers[0], found->numbers[1], found->numbers[2], found->numbers[3]};
-}
-
-std::string_view Node::word(std::string_view field, std::string_view otherwise) const {
-  const Field* const found = find(field);
-  return found != nullptr && !found->words.empty() ? std::string_view(found->words[0]) : otherwise;
-}
-
 std::shared_ptr<const Node> parse(std::string_view text, Errors& errors, Notes& notes) {
-  constexpr std::string_view header = "#VRML V1.0 ascii";
-  if (!text.starts_with(header)) {
-    errors.add({1, 1}, text.starts_with("#VRML V2.0")
-                           ? "this is VRML 2.0 (VRML97), which is not read; expected the first line '#VRML V1.0 ascii'"
-                           : "expected '#VRML V1.0 ascii' as the first line");
+  const bool v97 = text.starts_with("#VRML V2.0");
+  if (!v97 && !text.starts_with("#VRML V1.0 ascii")) {
+    errors.add({1, 1}, "expected '#VRML V2.0 utf8' or '#VRML V1.0 ascii' as the first line");
     return nullptr;
   }
-  return Parser(text, errors, notes).run();
+  return Parser(text, v97 ? Version::v97 : Version::v1, errors, notes).run();
 }
 
 }  // namespace apps::vrml

@@ -31,11 +31,12 @@ std::optional<glm::dmat4> transform_of(const Node& node) {
     for (int i = 0; i < 16; ++i) { result[i / 4][i % 4] = matrix->numbers[static_cast<std::size_t>(i)]; }
     return result;
   }
-  if (node.type == "Transform") {
+  if (node.type == "Transform") {  // VRML 97 has another name for its scale
     const glm::dmat4 tilt = turned(node.rotation("scaleOrientation"));
     const glm::dvec3 centre = node.vector("center", zero);
     return moved(node.vector("translation", zero)) * moved(centre) * turned(node.rotation("rotation")) * tilt *
-           glm::scale(glm::dmat4(1.0), node.vector("scaleFactor", one)) * glm::transpose(tilt) * moved(-centre);
+           glm::scale(glm::dmat4(1.0), node.vector(node.version == Version::v97 ? "scale" : "scaleFactor", one)) * glm::transpose(tilt) *
+           moved(-centre);
   }
   return std::nullopt;
 }
@@ -50,6 +51,10 @@ Binding binding_of(std::string_view word) {
 }  // namespace
 
 bool change(State& state, const Node& node) {
+  if (node.version == Version::v97) {
+    if (!node.name.empty()) { state.named = &node; }
+    if (node.type != "Transform") { return false; }
+  }
   if (const auto transform = transform_of(node)) {
     state.transform = state.transform * *transform;
   } else if (node.type == "Material") {
@@ -74,11 +79,15 @@ bool change(State& state, const Node& node) {
 
 std::vector<std::shared_ptr<const Node>> walked_children(const Node& node) {
   std::vector<std::shared_ptr<const Node>> all = node.children;
+  for (const char* const name : {"children", "choice", "level"}) {
+    const Field* const field = node.find(name);
+    if (field != nullptr) { all.insert(all.end(), field->nodes.begin(), field->nodes.end()); }
+  }
   if (node.type == "Switch") {
-    const double which = node.number("whichChild", -1.0);
+    const double which = node.number(node.version == Version::v97 ? "whichChoice" : "whichChild", -1.0);
     // Views to choose from: a viewer offers all of them.
     const bool views = std::all_of(all.begin(), all.end(), [](const auto& child) { return is_camera(*child); });
-    if (which == -3.0 || views) { return all; }
+    if ((which == -3.0 && node.version == Version::v1) || views) { return all; }
     const bool exists = which >= 0.0 && which < static_cast<double>(all.size());
     if (!exists) { return {}; }
     all = {all[static_cast<std::size_t>(which)]};
@@ -89,8 +98,24 @@ std::vector<std::shared_ptr<const Node>> walked_children(const Node& node) {
 }
 
 void restore(State& state, const State& before, const Node& node) {
-  if (node.type == "Separator" || node.type == "WWWAnchor" || node.type == "WWWInline") { state = before; }
+  if (node.version == Version::v97 || node.type == "Separator" || node.type == "WWWAnchor" || node.type == "WWWInline") { state = before; }
   if (node.type == "TransformSeparator") { state.transform = before.transform; }
+}
+
+State state_of_shape(const Node& shape, const Node& geometry, const State& around) {
+  State state = around;
+  const Node* const appearance = shape.node("appearance");
+  state.material = appearance != nullptr ? appearance->node("material") : nullptr;
+  state.texture = appearance != nullptr ? appearance->node("texture") : nullptr;
+  state.coordinates = geometry.node("coord");
+  state.colors = geometry.node("color");
+  const bool of_faces = geometry.is_false("colorPerVertex");
+  state.binding = state.colors == nullptr ? Binding::overall : of_faces ? Binding::per_face_indexed : Binding::per_vertex_indexed;
+  state.ordered = true;
+  state.clockwise = geometry.is_false("ccw");
+  state.solid = !geometry.is_false("solid");
+  state.creased = geometry.number("creaseAngle", 0.0) > 0.0;
+  return state;
 }
 
 }  // namespace apps::vrml
