@@ -38,16 +38,22 @@ struct WallFace {
   Polygon polygon;
   glm::dvec3 normal{0.0};
   raycast::Box box;
+  double thickness = 0.0;  // of its object where that is convex, else 0
 };
 
 // Of a line across a face that walls must cover to cut it. About half, and no round number, which walls would meet as an equality.
 inline constexpr double share_of_walls = 0.47;
+// A few walls on a wide face, of a tent or a house on its ground, cut it though they are short beside it: between them it may be dark. What
+// is thicker than this part of its foot is no wall; to cut along a block does more harm, by long narrow patches, than good.
+inline constexpr double share_of_few_walls = 0.07, thickness_of_wall = 0.2;
+inline constexpr std::ptrdiff_t few_lines = 12;
 
 // A line across a face and the intervals of it on which walls stand.
 struct WallLine {
   glm::dvec3 point{0.0}, normal{0.0};  // the plane of the walls
   glm::dvec3 along{0.0};               // unit
   std::vector<std::pair<double, double>> intervals;
+  bool thin = false;  // are some of the walls?
 
   [[nodiscard]] double at(const glm::dvec3& p) const { return glm::dot(p - point, along); }
   // Length of what the walls cover between two places.
@@ -73,6 +79,16 @@ HALFLIGHT_INLINE std::vector<WallFace> wall_faces(const Surface& surface) {
     for (const glm::dvec3& p : face.polygon) { face.box.extend(p); }
     faces.push_back(std::move(face));
   }
+  if (!surface.object->solid() || !surface.object->convex()) { return faces; }
+  double thickness = std::numeric_limits<double>::infinity();
+  for (const WallFace& face : faces) {
+    double depth = 0.0;
+    for (const WallFace& other : faces) {
+      for (const glm::dvec3& p : other.polygon) { depth = std::max(depth, glm::dot(face.normal, face.polygon[0] - p)); }
+    }
+    thickness = std::min(thickness, depth);
+  }
+  for (WallFace& face : faces) { face.thickness = thickness; }
   return faces;
 }
 
@@ -107,20 +123,23 @@ HALFLIGHT_INLINE void add_wall(const WallFace& face, const WallFace& wall, doubl
     if ((ha > tolerance && hb < -tolerance) || (ha < -tolerance && hb > tolerance)) { meet(a + ha / (ha - hb) * (b - a)); }
   }
   if (!(top > tolerance) || !(to - from > tolerance)) { return; }
+  const bool thin = wall.thickness <= thickness_of_wall * (to - from);
   for (WallLine& line : lines) {
     const double cosine = glm::dot(line.normal, wall.normal);
     if (std::abs(cosine) < 1.0 - 1e-12 || std::abs(glm::dot(line.normal, w[0] - line.point)) > tolerance) { continue; }
     const double turn = glm::dot(along, line.along) < 0.0 ? -1.0 : 1.0;
     const double shift = line.at(w[0]);
     line.intervals.emplace_back(shift + std::min(turn * from, turn * to), shift + std::max(turn * from, turn * to));
+    line.thin = line.thin || thin;
     return;
   }
-  lines.push_back({w[0], wall.normal, along, {{from, to}}});
+  lines.push_back({w[0], wall.normal, along, {{from, to}}, thin});
 }
 
 // Cuts one face along its lines.
 HALFLIGHT_INLINE void cut_along(SurfaceBRep& brep, brep::FaceId face, std::vector<WallLine>& lines) {
   for (WallLine& line : lines) { std::sort(line.intervals.begin(), line.intervals.end()); }
+  const bool few = std::count_if(lines.begin(), lines.end(), [](const WallLine& line) { return line.thin; }) <= few_lines;
   const auto place = [&](const SurfaceBRep& b, brep::FaceId part) {
     for (const WallLine& line : lines) {
       const brep::Cut cut = brep::AlongPlane{line.point, line.normal}(b, part);
@@ -130,7 +149,8 @@ HALFLIGHT_INLINE void cut_along(SurfaceBRep& brep, brep::FaceId face, std::vecto
       };
       const double p = line.at(point(cut.a, cut.on_a));
       const double q = line.at(point(cut.b, cut.on_b));
-      if (line.covered(std::min(p, q), std::max(p, q)) >= share_of_walls * std::abs(p - q)) { return cut; }
+      const double least = few && line.thin ? share_of_few_walls : share_of_walls;
+      if (line.covered(std::min(p, q), std::max(p, q)) >= least * std::abs(p - q)) { return cut; }
     }
     return brep::Cut{};
   };
