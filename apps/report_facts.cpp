@@ -27,6 +27,7 @@ void add_error(Facts& facts, const std::string& path, const radiosity::ErrorEsti
   facts.add(path + ".standard_error", error.standard_error, "%");
   facts.add(path + ".low", error.low, "%");
   facts.add(path + ".high", error.high, "%");
+  facts.add(path + ".wide", radiosity::is_wide(error));
 }
 
 void add_picture_error(Facts& facts, const radiosity::PictureError& picture) {

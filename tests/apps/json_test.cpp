@@ -73,7 +73,7 @@ TEST_CASE("the report has its documented keys") {
   audit.nodes = 12;
   audit.row_sum.mean = 0.5;
   audit.surface_error = radiosity::ErrorEstimate{0.02, 0.001, 0.018, 0.022};
-  audit.leaf_error = radiosity::ErrorEstimate{0.04, 0.002, 0.036, 0.044};
+  audit.leaf_error = radiosity::ErrorEstimate{0.04, 0.02, 0.0, 0.08};
   audit.left_out = {{"channels", "all is grey", "two thirds"}};
   audit.surfaces = {{"floor", 4.0, radiosity::Color(1.0, 2.0, 3.0)}};
   report.picture_time = radiosity::StageTime{"picture", 0.1, 0.1};
@@ -82,6 +82,8 @@ TEST_CASE("the report has its documented keys") {
   CHECK(value["error"]["relative_l2"].number() == 0.02);
   CHECK(value["error"]["standard_error"].number() == 0.001);
   CHECK(value["error"]["leaf"]["relative_l2"].number() == 0.04);
+  CHECK_FALSE(value["error"]["wide"].boolean());
+  CHECK(value["error"]["leaf"]["wide"].boolean());
   CHECK(value["cpu_seconds"]["refine"].number() == 4.0);
   CHECK(value["cpu_seconds"]["total"].number() == 4.5);
   CHECK(value["cpu_seconds"]["picture"].number() == 0.1);
