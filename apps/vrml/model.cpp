@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <numbers>
 #include <unordered_map>
 #include <utility>
@@ -94,6 +95,7 @@ class ModelMaker {
     std::string name(node.word(node.version == Version::v97 ? "url" : "name", ""));
     const auto around = files_.find(&node);
     if (around != files_.end() && !name.empty()) { name.insert(0, around->second, 0, around->second.rfind('/') + 1); }
+    name = std::filesystem::path(name).lexically_normal().generic_string();  // one file has one name
     const auto [known, is_new] = inlines_.emplace(name, nullptr);
     if (!is_new) { return known->second; }
     std::string fault;

@@ -107,8 +107,10 @@ class Parser {
       if (!in_.is_word()) { return fail("expected a field or a node in " + node.type + ", " + found()); }
       const std::string_view word = in_.token();
       const FieldTypes& declared = prototype != nullptr ? prototype->types : own;
+      // What a file declares may not change the fields that a node has anyway.
+      const FieldType* const known = type != nullptr ? field_type(*type, word) : nullptr;
       const auto among = declared.find(word);
-      const FieldType* const field = among != declared.end() ? &among->second : type != nullptr ? field_type(*type, word) : nullptr;
+      const FieldType* const field = known == nullptr && among != declared.end() ? &among->second : known;
       if (version_ == Version::v1 && word == "fields") {
         in_.next();
         declare(own);

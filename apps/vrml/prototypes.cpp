@@ -20,7 +20,7 @@ class Instantiation {
     const auto [known, is_new] = copies_.emplace(node.get(), nullptr);
     if (!is_new) { return known->second; }  // used twice in the body, so it is one node in the instance, too
     auto made = std::make_shared<Node>(*node);
-    take(1 + made->children.size());
+    take(1 + made->children.size() + made->fields.size());
     copy_list(made->children);
     for (auto field = made->fields.begin(); field != made->fields.end() && budget_ > 0;) {
       if (!field->second->is.empty()) { field->second = value(field->second->is); }

@@ -39,6 +39,9 @@ inline constexpr int place_rounds = 8;
 inline constexpr double least_of_light = 0.1, most_of_area = 0.05;
 // How often a place is chosen by the photons around a point; else by its power over its squared distance, though it may be hidden.
 inline constexpr double by_photons = 0.75;
+// Of the diameter of the scene. A direction at the border of a cone must have the density that chose it, and rounding of its cosine is not
+// to decide that: it is some 1e-16, the squared sine of a cone at least 1e-9, and a millionth of that is added to each.
+inline constexpr double least_radius = 1e-4, border_of_cone = 1e-6;
 
 }  // namespace detail
 
@@ -119,7 +122,7 @@ HALFLIGHT_INLINE std::vector<BrightPlaces::Reflected> BrightPlaces::bright_light
   return result;
 }
 
-HALFLIGHT_INLINE PhotonGrid BrightPlaces::send_on(std::span<const Reflected> light, const Use& use, const MeetFront& meet) const {
+HALFLIGHT_INLINE PhotonGrid BrightPlaces::sent_on(std::span<const Reflected> light, const Use& use, const MeetFront& meet) const {
   std::vector<double> until;
   double power = 0.0;
   for (const Place& place : places_) { until.push_back(power += place.power); }
@@ -149,7 +152,8 @@ HALFLIGHT_INLINE BrightPlaces::BrightPlaces(std::vector<Reflected> light, const 
     *next = place_of(bright, whole.first, second);
     places_.push_back(place_of(bright, second, whole.last));
   }
-  photons_ = send_on(bright, use, meet);
+  for (Place& place : places_) { place.radius = std::max(place.radius, detail::least_radius * use.diameter); }
+  photons_ = sent_on(bright, use, meet);
 }
 
 HALFLIGHT_INLINE BrightPlaces::From::From(const BrightPlaces& places, const glm::dvec3& position, const glm::dvec3& normal)
@@ -189,7 +193,7 @@ HALFLIGHT_INLINE std::optional<glm::dvec3> BrightPlaces::From::direction(double 
 HALFLIGHT_INLINE double BrightPlaces::From::density_of(const Cone& cone, const glm::dvec3& w) const {
   if (!(cone.sine2 < 1.0)) { return 0.25 * std::numbers::inv_pi; }
   const double along = glm::dot(w, cone.axis);
-  if (!(along > 0.0) || along * along < cone.square * (1.0 - cone.sine2)) { return 0.0; }
+  if (!(along > 0.0) || along * along < cone.square * (1.0 - (1.0 + detail::border_of_cone) * cone.sine2)) { return 0.0; }
   return (1.0 + std::sqrt(1.0 - cone.sine2)) / (2.0 * std::numbers::pi * cone.sine2);
 }
 

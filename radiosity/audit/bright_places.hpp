@@ -68,11 +68,10 @@ class BrightPlaces {
    private:
     [[nodiscard]] std::optional<glm::dvec3> direction(double choice, double u, double v) const;
 
-    // The cone around the sphere of a place.
+    // The cone around the sphere of a place. Left as it is where there is none: every path makes many of these.
     struct Cone {
-      glm::dvec3 axis{0.0};  // not of length 1
-      double square = 0.0, sine2 = 0.0;
-      double chance = 0.0;
+      glm::dvec3 axis;  // not of length 1
+      double square, sine2, chance;
     };
     [[nodiscard]] double density_of(const Cone& cone, const glm::dvec3& w) const;
 
@@ -89,7 +88,7 @@ class BrightPlaces {
     glm::dvec3 centre{0.0};
     double radius = 0.0;   // of the sphere around all of it
     double squares = 0.0;  // mean square of its distance from the centre
-    int axis = 0;          // along which it differs most: x, y, z, or these of its normals
+    int axis = 0;          // in which it differs most: 0 to 2 x, y, z of the position, 3 to 5 of the normal
 
     // About the area on which it landed, as on a disk: the mean square of the distance is half of the squared radius there.
     [[nodiscard]] double area() const;
@@ -101,7 +100,7 @@ class BrightPlaces {
   // The light of small cells that are far brighter than the rest.
   [[nodiscard]] static std::vector<Reflected> bright_light(std::vector<Reflected> light, double area);
   // Photons that the places send on, with the place that each comes from.
-  [[nodiscard]] PhotonGrid send_on(std::span<const Reflected> light, const Use& use, const MeetFront& meet) const;
+  [[nodiscard]] PhotonGrid sent_on(std::span<const Reflected> light, const Use& use, const MeetFront& meet) const;
 
   std::vector<Place> places_;
   PhotonGrid photons_;

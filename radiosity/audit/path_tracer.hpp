@@ -121,7 +121,7 @@ class PathTracer {
                                 std::uint32_t most = std::numeric_limits<std::uint32_t>::max()) const {
     const Material* material = &materials_[surface(object, sheet)];
     Light result{material->emission, material->emission};
-    Color throughput{1.0}, reflected{1.0};  // the latter without what directions are weighted by
+    Color throughput{1.0}, reflected{1.0};  // reflected: by the reflectances alone, for the roulette
     for (std::uint32_t reflections = 0; reflections < most; ++reflections) {
       const bool first = reflections == 0;
       const auto arrives = [&](const Color& light) {

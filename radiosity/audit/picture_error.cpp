@@ -26,7 +26,6 @@
 #include <radiosity/audit/path_estimates.hpp>
 #include <radiosity/audit/path_tracer.hpp>
 #include <radiosity/audit/pixel_draw.hpp>
-#include <radiosity/audit/surface_error.hpp>
 #include <radiosity/result/error_estimate.hpp>
 #include <radiosity/scene/frame.hpp>
 #include <radiosity/scene/light_unit.hpp>
@@ -58,7 +57,9 @@ HALFLIGHT_INLINE std::optional<PictureError> PictureAudit::measure(const ShownPi
   const double price = prepared_->objects.ray_work() + prepared_->objects.walk_work();
   const PixelDraw draw = draw_of(picture, goal.among_rays_of(price).rays / 8, rays, control);
   // What is seen may lie where rays are dearer or cheaper than they are in the mean.
-  const Series series{picture, draw, tracer_for(picture, draw, goal.rays, seed), seed};
+  const bool may_aim = aimed_ && goal.among_rays_of(price).rays >= least_rays_to_aim;
+  const PathTracer& tracer = may_aim ? better_tracer(picture, draw, seed, threads, rays) : tracer_;
+  const Series series{picture, draw, tracer, seed};
   const double seen_price = ray_price(series);
   AuditGoal own = goal.among_rays_of(seen_price > 0.0 ? seen_price / microseconds_of_ray : price);
   own.rays -= std::min(own.rays, rays);
@@ -213,9 +214,8 @@ HALFLIGHT_INLINE PixelDraw PictureAudit::draw_of(const ShownPicture& picture, st
   return {picture.width, picture.height, pixel_importance(picture.width, picture.height, radiosity, left_out)};
 }
 
-HALFLIGHT_INLINE const PathTracer& PictureAudit::tracer_for(const ShownPicture& picture, const PixelDraw& draw, std::uint64_t rays,
-                                                            std::uint64_t seed) const {
-  if (!aimed_ || rays < least_rays_to_aim) { return tracer_; }
+HALFLIGHT_INLINE const PathTracer& PictureAudit::better_tracer(const ShownPicture& picture, const PixelDraw& draw, std::uint64_t seed,
+                                                               unsigned threads, std::uint64_t& rays) const {
   const std::uint32_t side = PixelDraw::side(128);
   const auto start = [&](std::uint32_t i) -> std::optional<PathStart> {
     Random random{seed, i, 0x61696d696e67ull};
@@ -226,7 +226,9 @@ HALFLIGHT_INLINE const PathTracer& PictureAudit::tracer_for(const ShownPicture& 
     return PathStart{at->point, at->object, at->sheet, pixel.weight};
   };
   const auto points = static_cast<std::uint32_t>(PixelDraw::size(side));
-  return aiming_pays(tracer_, *aimed_, seed, points, start) ? *aimed_ : tracer_;
+  const AimingTry tried = try_aiming(tracer_, *aimed_, seed, points, thread_count(threads), start);
+  rays += tried.rays;
+  return tried.pays ? *aimed_ : tracer_;
 }
 
 HALFLIGHT_INLINE PictureAudit::Sample PictureAudit::measure_pixel(const Series& series, std::uint64_t key, std::size_t i,

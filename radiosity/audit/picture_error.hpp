@@ -96,9 +96,9 @@ class PictureAudit {
   // and are never drawn, because that would be wasted. Which of them are found changes where pixels are drawn, not what the estimate means.
   [[nodiscard]] PixelDraw draw_of(const ShownPicture& picture, std::uint64_t most, std::uint64_t& rays, const Control& control) const;
 
-  // The tracer for an audit of so many rays: the one with aimed paths, if that pays (aimed_paths.hpp).
-  [[nodiscard]] const PathTracer& tracer_for(const ShownPicture& picture, const PixelDraw& draw, std::uint64_t rays,
-                                             std::uint64_t seed) const;
+  // The one with aimed paths, which there is, if that pays (aimed_paths.hpp). Adds the rays that it takes to know.
+  [[nodiscard]] const PathTracer& better_tracer(const ShownPicture& picture, const PixelDraw& draw, std::uint64_t seed, unsigned threads,
+                                                std::uint64_t& rays) const;
 
   [[nodiscard]] Sample measure_pixel(const Series& series, std::uint64_t key, std::size_t i, std::uint32_t side, std::uint32_t paths) const;
 

@@ -120,21 +120,24 @@ HALFLIGHT_INLINE std::optional<SurfaceErrorMeter::Spot> SurfaceErrorMeter::spot(
   return Spot{&*triangle, weight, point};
 }
 
-HALFLIGHT_INLINE void SurfaceErrorMeter::aim(const std::vector<Surface>& boundaries) {
+HALFLIGHT_INLINE std::uint64_t SurfaceErrorMeter::aim(const std::vector<Surface>& boundaries, unsigned threads) {
   constexpr std::uint32_t points = 128;
-  if (!(total_ > 0.0)) { return; }
+  if (!(total_ > 0.0)) { return 0; }
   std::optional<PathTracer> aimed = tracer_->aimed(boundaries);
-  if (!aimed) { return; }
-  const bool pays = aiming_pays(*tracer_, *aimed, seed_, points, [&](std::uint32_t i) -> std::optional<PathStart> {
+  if (!aimed) { return 0; }
+  const auto start = [&](std::uint32_t i) -> std::optional<PathStart> {
     Random random{seed_, i, 0x61696d696e67ull};
     const std::optional<Spot> at = spot(random, static_cast<double>(i) / points, 1.0 / points);
     if (!at) { return std::nullopt; }
     const InputSurface& input = inputs_[mesh_->faces[at->triangle->face].surface];
     return PathStart{at->point, input.object, input.sheet, 1.0 / (total_ * density(*at->triangle))};
-  });
-  if (!pays) { return; }
-  aimed_ = std::move(aimed);
-  tracer_ = &*aimed_;
+  };
+  const AimingTry tried = try_aiming(*tracer_, *aimed, seed_, points, threads, start);
+  if (tried.pays) {
+    aimed_ = std::move(aimed);
+    tracer_ = &*aimed_;
+  }
+  return tried.rays;
 }
 
 HALFLIGHT_INLINE double SurfaceErrorMeter::ray_price() const {

@@ -45,8 +45,9 @@ class SurfaceErrorMeter {
   SurfaceErrorMeter(const SurfaceErrorMeter&) = delete;
   SurfaceErrorMeter& operator=(const SurfaceErrorMeter&) = delete;
 
-  // From now on paths are aimed at bright places, if that pays (aimed_paths.hpp). `boundaries`: of the objects.
-  void aim(const std::vector<Surface>& boundaries);
+  // From now on paths are aimed at bright places, if that pays (aimed_paths.hpp). `boundaries`: of the objects. Returns the rays that it
+  // took to know.
+  std::uint64_t aim(const std::vector<Surface>& boundaries, unsigned threads);
 
   // Adds `points` fresh points, spread evenly over the mesh; buried ones, and those nearest to the back of a blade, do not count.
   // False when cancelled.

@@ -38,7 +38,7 @@ struct WallFace {
   Polygon polygon;
   glm::dvec3 normal{0.0};
   raycast::Box box;
-  double thickness = 0.0;  // of its object where that is convex, else 0
+  double thickness = 0.0;  // of the wall, from this face to the one on its other side; 0 of a sheet
 };
 
 // Of a line across a face that walls must cover to cut it. About half, and no round number, which walls would meet as an equality.
@@ -53,7 +53,7 @@ struct WallLine {
   glm::dvec3 point{0.0}, normal{0.0};  // the plane of the walls
   glm::dvec3 along{0.0};               // unit
   std::vector<std::pair<double, double>> intervals;
-  bool thin = false;  // are some of the walls?
+  bool thin = true;  // are all of them?
 
   [[nodiscard]] double at(const glm::dvec3& p) const { return glm::dot(p - point, along); }
   // Length of what the walls cover between two places.
@@ -68,6 +68,27 @@ struct WallLine {
   }
 };
 
+HALFLIGHT_INLINE bool boxes_meet(const raycast::Box& a, const raycast::Box& b, double margin) {
+  for (int k = 0; k < 3; ++k) {
+    if (!(a.lo[k] - margin <= b.hi[k] && b.lo[k] - margin <= a.hi[k])) { return false; }
+  }
+  return true;
+}
+
+// How far behind each face of a solid the next one is that looks the other way. A solid of many faces is no wall.
+HALFLIGHT_INLINE void measure_thickness(std::vector<WallFace>& faces) {
+  constexpr std::size_t most_faces = 256;
+  for (WallFace& face : faces) {
+    face.thickness = std::numeric_limits<double>::infinity();
+    if (faces.size() > most_faces) { continue; }
+    for (const WallFace& other : faces) {
+      const double depth = glm::dot(face.normal, face.polygon[0] - other.polygon[0]);
+      const bool behind = depth > 0.0 && depth < face.thickness && glm::dot(face.normal, other.normal) < -0.99;
+      if (behind && boxes_meet(face.box, other.box, depth)) { face.thickness = depth; }
+    }
+  }
+}
+
 HALFLIGHT_INLINE std::vector<WallFace> wall_faces(const Surface& surface) {
   std::vector<WallFace> faces;
   for (const brep::FaceId f : brep::faces(surface.brep)) {
@@ -79,24 +100,8 @@ HALFLIGHT_INLINE std::vector<WallFace> wall_faces(const Surface& surface) {
     for (const glm::dvec3& p : face.polygon) { face.box.extend(p); }
     faces.push_back(std::move(face));
   }
-  if (!surface.object->solid() || !surface.object->convex()) { return faces; }
-  double thickness = std::numeric_limits<double>::infinity();
-  for (const WallFace& face : faces) {
-    double depth = 0.0;
-    for (const WallFace& other : faces) {
-      for (const glm::dvec3& p : other.polygon) { depth = std::max(depth, glm::dot(face.normal, face.polygon[0] - p)); }
-    }
-    thickness = std::min(thickness, depth);
-  }
-  for (WallFace& face : faces) { face.thickness = thickness; }
+  if (surface.object->solid()) { measure_thickness(faces); }
   return faces;
-}
-
-HALFLIGHT_INLINE bool boxes_meet(const raycast::Box& a, const raycast::Box& b, double margin) {
-  for (int k = 0; k < 3; ++k) {
-    if (!(a.lo[k] - margin <= b.hi[k] && b.lo[k] - margin <= a.hi[k])) { return false; }
-  }
-  return true;
 }
 
 // Adds the interval on which `wall` stands on or goes through the plane of `face`, if it rises above the bright side of the face.
@@ -130,7 +135,7 @@ HALFLIGHT_INLINE void add_wall(const WallFace& face, const WallFace& wall, doubl
     const double turn = glm::dot(along, line.along) < 0.0 ? -1.0 : 1.0;
     const double shift = line.at(w[0]);
     line.intervals.emplace_back(shift + std::min(turn * from, turn * to), shift + std::max(turn * from, turn * to));
-    line.thin = line.thin || thin;
+    line.thin = line.thin && thin;
     return;
   }
   lines.push_back({w[0], wall.normal, along, {{from, to}}, thin});

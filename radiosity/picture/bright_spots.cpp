@@ -245,8 +245,8 @@ HALFLIGHT_INLINE void BrightSpots::send_photons(const DirectLight& direct) {
   Photons photons{std::vector<std::uint32_t>(groups_.size(), 0), std::vector<std::uint32_t>(groups_.size(), 0), {}};
   std::uint32_t sent = 0, elsewhere = 0;
   while (sent < detail::most_photons && elsewhere < detail::wanted_photons) {
-    // A group of which most light goes to other spots, in a housing, sends fewer: by the root of what gets out, which tells most of all that
-    // gets out for so many photons (Neyman 1934).
+    // A group of which most light goes to other spots, in a housing, sends fewer: by the root of the share that gets out, which
+    // gives the least variance for a number of photons (Neyman 1934).
     std::vector<double> until;
     double all = 0.0;
     for (std::size_t g = 0; g < groups_.size(); ++g) {

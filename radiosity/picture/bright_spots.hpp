@@ -74,7 +74,7 @@ class BrightSpots {
     const BrightSpots* spots_;
     std::vector<double> until_;  // by group: the probability of it and of those before it
     double square_ = 0.0;        // mean square of what even rays find of the spots
-    double border_ = 0.0;        // the same of their borders alone
+    double border_ = 0.0;        // what is left of it where rays lie so evenly that borders of spots alone count
   };
 
  private:

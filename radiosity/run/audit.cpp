@@ -46,7 +46,11 @@ HALFLIGHT_INLINE void measure_errors(Run& run) {
     const bool last = audit.picture_error && audit.picture_error->error.within(*options.error);
     goal = last ? to_know : AuditGoal{options.audit_points / 4, rays_worth(audit) / 4};
   }
-  if (goal.rays >= least_rays_to_aim) { meter.aim(run.scene.surfaces); }
+  // What steers the next round must not depend on the target: nor may this.
+  const AuditGoal any_target{0, options.error ? rays_worth(audit) : to_know.rays};
+  if (any_target.among_rays_of(audit.ray_work).rays >= least_rays_to_aim) {
+    audit.audit_rays += meter.aim(run.scene.surfaces, run.scene.threads);
+  }
   const double price = meter.ray_price();
   audit.ray_price = price > 0.0 ? price / microseconds_of_ray : audit.ray_work;
   goal = goal.among_rays_of(audit.ray_price);

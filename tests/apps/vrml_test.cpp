@@ -238,6 +238,12 @@ TEST_CASE("VRML: what is wrong is told with its place") {
   CHECK(models::error("a.wrl", "#VRML V1.0 ascii\r\n\r\nGroup {\r\n  Cube { width x }").substr(0, 6) == ":4:16:");
 }
 
+TEST_CASE("VRML: a file cannot change what the fields of a known node are") {
+  const std::string redeclared =
+      "Coordinate3 { point [ 1 0 0, 0 1 0, 0 0 1 ] } IndexedFaceSet { fields [ MFFloat coordIndex ] coordIndex [ 0, 1, 2, -1 ] }";
+  CHECK(read(redeclared).polygons() == read(triangle).polygons());
+}
+
 TEST_CASE("VRML: no nesting and no use of uses makes it crash or run without end") {
   std::string deep, uses = "Group { DEF a0 Group { Cube { } }";
   for (int i = 0; i < 100'000; ++i) { deep += "Group { "; }
