@@ -57,9 +57,10 @@ HALFLIGHT_INLINE std::optional<PictureError> PictureAudit::measure(const ShownPi
   const double price = prepared_->objects.ray_work() + prepared_->objects.walk_work();
   const PixelDraw draw = draw_of(picture, goal.among_rays_of(price).rays / 8, rays, control);
   // What is seen may lie where rays are dearer or cheaper than they are in the mean.
-  const bool may_aim = aimed_ && goal.among_rays_of(price).rays >= least_rays_to_aim;
-  const PathTracer& tracer = may_aim ? better_tracer(picture, draw, seed, threads, rays) : tracer_;
-  const Series series{picture, draw, tracer, seed};
+  const bool may_aim = goal.among_rays_of(price).rays >= least_rays_to_aim;
+  const std::optional<PathTracer> aimed = may_aim ? tracer_.aimed(prepared_->surfaces) : std::nullopt;
+  const bool pays = aimed && aiming_pays({picture, draw, tracer_, seed}, *aimed, threads, rays);
+  const Series series{picture, draw, pays ? *aimed : tracer_, seed};
   const double seen_price = ray_price(series);
   AuditGoal own = goal.among_rays_of(seen_price > 0.0 ? seen_price / microseconds_of_ray : price);
   own.rays -= std::min(own.rays, rays);
@@ -115,10 +116,7 @@ HALFLIGHT_INLINE std::optional<PictureError> PictureAudit::measure(const ShownPi
 }
 
 HALFLIGHT_INLINE PictureAudit::PictureAudit(const Scene& scene, const LightUnit& unit, Prepared prepared)
-    : unit_{unit},
-      prepared_{std::make_unique<Prepared>(std::move(prepared))},
-      tracer_{scene, prepared_->objects, prepared_->surfaces},
-      aimed_{tracer_.aimed(prepared_->surfaces)} {
+    : unit_{unit}, prepared_{std::make_unique<Prepared>(std::move(prepared))}, tracer_{scene, prepared_->objects, prepared_->surfaces} {
   const auto inputs = surfaces(scene);
   all_emit_ =
       std::none_of(inputs.begin(), inputs.end(), [&](const InputSurface& s) { return is_black(scene.materials[s.material].emission); });
@@ -214,21 +212,20 @@ HALFLIGHT_INLINE PixelDraw PictureAudit::draw_of(const ShownPicture& picture, st
   return {picture.width, picture.height, pixel_importance(picture.width, picture.height, radiosity, left_out)};
 }
 
-HALFLIGHT_INLINE const PathTracer& PictureAudit::better_tracer(const ShownPicture& picture, const PixelDraw& draw, std::uint64_t seed,
-                                                               unsigned threads, std::uint64_t& rays) const {
+HALFLIGHT_INLINE bool PictureAudit::aiming_pays(const Series& plain, const PathTracer& aimed, unsigned threads, std::uint64_t& rays) const {
   const std::uint32_t side = PixelDraw::side(128);
   const auto start = [&](std::uint32_t i) -> std::optional<PathStart> {
-    Random random{seed, i, 0x61696d696e67ull};
-    const PixelDraw::Pixel pixel = draw.draw(i, side, random);
+    Random random{plain.seed, i, 0x61696d696e67ull};
+    const PixelDraw::Pixel pixel = plain.draw.draw(i, side, random);
     std::uint64_t own = 0;
-    const auto at = seen(picture, pixel.x + 0.5, pixel.y + 0.5, own);
+    const auto at = seen(plain.picture, pixel.x + 0.5, pixel.y + 0.5, own);
     if (!at || (!all_emit_ && !is_black(emission(*at)))) { return std::nullopt; }
     return PathStart{at->point, at->object, at->sheet, pixel.weight};
   };
   const auto points = static_cast<std::uint32_t>(PixelDraw::size(side));
-  const AimingTry tried = try_aiming(tracer_, *aimed_, seed, points, thread_count(threads), start);
+  const AimingTry tried = try_aiming(plain.tracer, aimed, plain.seed, points, thread_count(threads), start);
   rays += tried.rays;
-  return tried.pays ? *aimed_ : tracer_;
+  return tried.pays;
 }
 
 HALFLIGHT_INLINE PictureAudit::Sample PictureAudit::measure_pixel(const Series& series, std::uint64_t key, std::size_t i,

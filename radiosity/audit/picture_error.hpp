@@ -96,9 +96,8 @@ class PictureAudit {
   // and are never drawn, because that would be wasted. Which of them are found changes where pixels are drawn, not what the estimate means.
   [[nodiscard]] PixelDraw draw_of(const ShownPicture& picture, std::uint64_t most, std::uint64_t& rays, const Control& control) const;
 
-  // The one with aimed paths, which there is, if that pays (aimed_paths.hpp). Adds the rays that it takes to know.
-  [[nodiscard]] const PathTracer& better_tracer(const ShownPicture& picture, const PixelDraw& draw, std::uint64_t seed, unsigned threads,
-                                                std::uint64_t& rays) const;
+  // Does it pay to aim the paths (aimed_paths.hpp)? Adds the rays that it takes to know.
+  [[nodiscard]] bool aiming_pays(const Series& plain, const PathTracer& aimed, unsigned threads, std::uint64_t& rays) const;
 
   [[nodiscard]] Sample measure_pixel(const Series& series, std::uint64_t key, std::size_t i, std::uint32_t side, std::uint32_t paths) const;
 
@@ -116,7 +115,6 @@ class PictureAudit {
   LightUnit unit_;
   std::unique_ptr<Prepared> prepared_;  // the tracer points into it
   PathTracer tracer_;
-  std::optional<PathTracer> aimed_;
   bool all_emit_ = false;  // every surface does
 };
 

@@ -46,7 +46,7 @@ inline constexpr double share_of_walls = 0.47;
 // A few walls on a wide face, of a tent or a house on its ground, cut it though they are short beside it: between them it may be dark. What
 // is thicker than this part of its foot is no wall; to cut along a block does more harm, by long narrow patches, than good.
 inline constexpr double share_of_few_walls = 0.07, thickness_of_wall = 0.2;
-inline constexpr std::ptrdiff_t few_lines = 12;
+inline constexpr std::ptrdiff_t least_lines = 2, few_lines = 12;  // one wall alone encloses nothing
 
 // A line across a face and the intervals of it on which walls stand.
 struct WallLine {
@@ -144,7 +144,8 @@ HALFLIGHT_INLINE void add_wall(const WallFace& face, const WallFace& wall, doubl
 // Cuts one face along its lines.
 HALFLIGHT_INLINE void cut_along(SurfaceBRep& brep, brep::FaceId face, std::vector<WallLine>& lines) {
   for (WallLine& line : lines) { std::sort(line.intervals.begin(), line.intervals.end()); }
-  const bool few = std::count_if(lines.begin(), lines.end(), [](const WallLine& line) { return line.thin; }) <= few_lines;
+  const auto thin = std::count_if(lines.begin(), lines.end(), [](const WallLine& line) { return line.thin; });
+  const bool few = thin >= least_lines && thin <= few_lines;
   const auto place = [&](const SurfaceBRep& b, brep::FaceId part) {
     for (const WallLine& line : lines) {
       const brep::Cut cut = brep::AlongPlane{line.point, line.normal}(b, part);

@@ -5,7 +5,7 @@
 // takes light on one side and gives it on the other: light leaks through the wall, the more the larger the patch. Where the flat faces of
 // other objects, or of the same open surface, meet a face along about half of a line across it, the face is cut along that line before
 // refinement begins (paper 2.2: a split object finds the place, split_plane.hpp). No patch then spans the wall, and what lies under it is a
-// patch of its own, buried. Of thin walls that stand on a face along twelve lines at most, 7 % of a line is enough: under a tent
+// patch of its own, buried. Of thin walls that stand on a face along two to twelve lines, 7 % of a line is enough: under a tent
 // on a wide ground it may be dark.
 //
 // Walls that are shorter than that do not divide a face; refinement finds the shadow at their feet. Invariant: the boundary stays valid,

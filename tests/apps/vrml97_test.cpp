@@ -212,6 +212,8 @@ TEST_CASE("VRML 97: groups, levels, files, colours of pictures, and what has no 
   const models::Files files{{"in/b.wrl", vrml_twins::head + box + "Inline { url [ \"c.wrl\" ] }"},
                             {"in/c.wrl", "#VRML V1.0 ascii\nCube { }"}};
   CHECK(objects("Inline { url \"in/b.wrl\" }", files) == 2);
+  CHECK(objects("Inline { url \"./in/../in//b.wrl\" }", files) ==
+        2);  // one file has one name, or one that names itself has new ones for ever
   CHECK(noted(read97(box + "Shape { geometry Text { string \"x\" } }").notes, "lines, points and texts have no surface"));
   CHECK(objects("ROUTE a.b TO c.d Script { url \"javascript: }\" field SFNode s NULL } DEF t TouchSensor { enabled FALSE }" + box) == 1);
 

@@ -11,7 +11,6 @@
 #include <cstddef>
 #include <cstdio>
 #include <numbers>
-#include <random>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -21,6 +20,8 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
+
+#include "random_numbers.hpp"
 
 namespace vrml_graph {
 
@@ -70,9 +71,9 @@ struct State {
 // A tetrahedron's faces, counter-clockwise from outside.
 inline constexpr int tetrahedron[4][3] = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
 
-class Graph {
+class Graph : RandomNumbers {
  public:
-  explicit Graph(unsigned seed) : random_(seed) { group("Group", 0); }
+  explicit Graph(unsigned seed) : RandomNumbers(seed) { group("Group", 0); }
 
   [[nodiscard]] std::string vrml() {
     met_.assign(nodes_.size(), false);
@@ -87,13 +88,6 @@ class Graph {
   }
 
  private:
-  double number(double low, double high) { return std::uniform_real_distribution(low, high)(random_); }
-  glm::dvec3 vector(double low, double high) {
-    const double x = number(low, high), y = number(low, high);
-    return {x, y, number(low, high)};
-  }
-  int below(int count) { return static_cast<int>(random_() % static_cast<unsigned>(count)); }
-
   std::size_t keep(Node node) {
     nodes_.push_back(std::move(node));
     return nodes_.size() - 1;
@@ -336,7 +330,6 @@ class Graph {
     face_sets_ += "mesh o" + std::to_string(objects_++) + " {\n" + body + placed(state) + "}\n";
   }
 
-  std::mt19937 random_;
   std::vector<Node> nodes_;
   std::vector<bool> met_;
   std::string solids_, face_sets_;

@@ -5,10 +5,11 @@
 // some are used again, solids with and without all their parts, face sets with colours, a camera and a light.
 
 #include <cstddef>
-#include <random>
 #include <string>
 
 #include <glm/vec3.hpp>
+
+#include "random_numbers.hpp"
 
 namespace vrml_twins {
 
@@ -16,9 +17,9 @@ inline const std::string head = "#VRML V2.0 utf8\n";
 
 inline std::string text(const glm::dvec3& v) { return std::to_string(v.x) + " " + std::to_string(v.y) + " " + std::to_string(v.z); }
 
-class Twins {
+class Twins : RandomNumbers {
  public:
-  explicit Twins(unsigned seed) : random_(seed) {
+  explicit Twins(unsigned seed) : RandomNumbers(seed) {
     group(0);
     const std::string at = text(vector(-5.0, 5.0)), turn = text(vector(0.1, 1.0)) + " " + std::to_string(number(-3.0, 3.0));
     both("DEF view PerspectiveCamera { heightAngle 0.7", "DEF view Viewpoint { fieldOfView 0.7");
@@ -28,12 +29,6 @@ class Twins {
   [[nodiscard]] std::string v97() const { return head + v97_; }
 
  private:
-  double number(double low, double high) { return std::uniform_real_distribution(low, high)(random_); }
-  glm::dvec3 vector(double low, double high) {
-    const double x = number(low, high), y = number(low, high);
-    return {x, y, number(low, high)};
-  }
-  int below(int count) { return static_cast<int>(random_() % static_cast<unsigned>(count)); }
   void both(const std::string& v1, const std::string& v97) { v1_ += v1, v97_ += v97; }
   void both(const std::string& same) { both(same, same); }
 
@@ -95,7 +90,6 @@ class Twins {
     both(" } }\n");
   }
 
-  std::mt19937 random_;
   std::string v1_, v97_;
   int groups_ = 0;
 };
