@@ -56,11 +56,9 @@ HALFLIGHT_INLINE void Compiler::cylinder(const glm::dvec3& base, const AxisFrame
 }
 
 HALFLIGHT_INLINE void Compiler::superquadric(const glm::dvec3& centre, const glm::dmat3& unit, double p, double q, double ring) {
-  if (std::min(p, q) < smallest_power || std::max(p, q) > largest_power || ring > largest_ring) {
-    return;  // powers are not known well enough
-  }
+  if (ring > largest_ring) { return; }  // the distance from it is not known well enough
   form(p >= 1.0 && q >= 1.0 && ring == 0.0 ? FormKind::convex : FormKind::concave, centre, unit, p, q, ring,
-       eps_power * (1.0 + 0.5 / p + 0.5 / q));
+       eps_power * (1.0 + 0.5 / p + 0.5 / q + (p + q) / 128.0));
 }
 
 HALFLIGHT_INLINE void Compiler::body(std::span<const Plane> planes) {

@@ -149,7 +149,8 @@ inline constexpr float length_up = 1.0001f, limit_up = 1.00001f, eps_limit = 1e-
 // (|from| + |to|) once |from| + |to| > crossing_apart margin. For the quotient |from| / (|from| + |to|) is off by 8/7 margin / (|from| +
 // |to|) at most, and its own rounding and that of the direction are below this.
 inline constexpr float crossing_error = 3.0f, crossing_apart = 16.0f;
-// Of the function of a cone, and of the gauge of a superquadric with powers p, q: eps_power (1 + 1/2p + 1/2q) (forms.inc).
+// Of the function of a cone, and of the gauge of a superquadric with powers p, q, and of its slopes: eps_power (1 + 1/2p + 1/2q + (p + q) /
+// 128). For the power of a ratio is off by p times the rounding of that, 2^-24, and so are the slopes: by 1.5e-7 (p + q) (forms.inc).
 inline constexpr double eps_cone = 0x1p-20, eps_power = 0x1p-15;
 // What double precision computes in a shape's coordinates must be better than the margin there, and the margin small beside the shape.
 inline constexpr double largest_condition = 1e4;
@@ -159,8 +160,8 @@ inline constexpr double tol_sliver = 1e-6;
 // Change of a gauge along a segment, to its largest step: what is less steep may be a graze, and double precision decides.
 inline constexpr float tol_graze = 1e-4f;
 
-// Powers in these bounds, and rings, are computed to eps_power; of other shapes double precision is asked.
-inline constexpr double smallest_power = 0.2, largest_power = 16.0, largest_ring = 64.0;
+// Of supertoroids with a larger ring double precision is asked.
+inline constexpr double largest_ring = 64.0;
 
 // In place of 0 in a divisor, where the quotient then decides nothing: a length, and a square or a direction; and of a ratio whose power
 // would underflow.
