@@ -66,10 +66,10 @@ inline constexpr std::array<std::uint32_t, block_side> cell_of{0, 0, 0, 1,
 
 // Is the shadow of a thin thing as thin as the thing? The penumbra is as wide as the lamp seems from the receiver, times the distance of
 // what is in between: blocks near that hold the thing itself and are not filled, and from a block's width on a wider lamp blurs some
-// pixels.
+// pixels. Across a thing that lies along a tube it is the width of that which counts.
 HALFLIGHT_INLINE bool is_narrow(const DirectLight::Lamp& lamp, const glm::dvec3& x) {
   constexpr double seems = 0.1;
-  return 2.0 * lamp.radius < seems * glm::length(lamp.centre - x);
+  return lamp.width < seems * glm::length(lamp.centre - x);
 }
 
 // Adds the light of lamp k of the region to the fragments `own`, all of one surface.

@@ -90,6 +90,7 @@ class GatherPainter {
 
   void glance(std::size_t block);
   void look_closer(std::size_t block);
+  [[nodiscard]] Color indirect_at(const Fragment& f) const;
   void light_block(std::size_t block);
   [[nodiscard]] bool on_edge(std::uint32_t x, std::uint32_t y) const;
   [[nodiscard]] std::vector<FinalGather::Place> places_of(const Fragment& fragment, std::span<const glm::dvec2> at) const;
@@ -229,6 +230,11 @@ HALFLIGHT_INLINE bool GatherPainter::gather() {
   return true;
 }
 
+// Interpolated between the points of indirect light.
+HALFLIGHT_INLINE Color GatherPainter::indirect_at(const Fragment& f) const {
+  return points_.at(f.x, f.y, f.place.point.position, f.place.point.normal, f.place.object).value_or(Color{0.0});
+}
+
 HALFLIGHT_INLINE void GatherPainter::light_block(std::size_t block) {
   const std::vector<Fragment>& fragments = blocks_[block];
   std::vector<Color>& irradiance = irradiance_[block];
@@ -245,8 +251,7 @@ HALFLIGHT_INLINE void GatherPainter::light_block(std::size_t block) {
     add_direct_light(light_, own, fragments, irradiance);
     for (const std::uint32_t i : own) {
       const Fragment& f = fragments[i];
-      const auto& p = f.place.point;
-      if (const auto indirect = points_.at(f.x, f.y, p.position, p.normal, f.place.object)) { irradiance[i] += *indirect; }
+      irradiance[i] += indirect_at(f);
       if (surface_of(f.x, f.y) == surface) {
         lit_[std::size_t{f.y} * view_.size.width + f.x] = static_cast<float>(irradiance[i].x + irradiance[i].y + irradiance[i].z);
       }
@@ -297,8 +302,8 @@ HALFLIGHT_INLINE void GatherPainter::smooth_shadows(std::size_t block) {
     LitRegion region = light_.lit_region(all);
     for (std::size_t k = begin; k < end; ++k) {
       const Fragment& f = fragments[order[k]];
-      Color& irradiance = irradiance_[block][order[k]];
-      irradiance = glm::max(irradiance + over_pixel(region, f.place, places_of(f, four_), many[k - begin]), Color{0.0});
+      const auto direct = over_pixel(region, f.place, places_of(f, four_), many[k - begin]);
+      if (direct) { irradiance_[block][order[k]] = *direct + indirect_at(f); }
     }
   }
 }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -10,9 +11,9 @@
 
 namespace radiosity {
 
-HALFLIGHT_INLINE Color over_pixel(LitRegion& region, const FinalGather::Place& own, std::span<const FinalGather::Place> few,
-                                  std::span<const FinalGather::Place> many) {
-  if (few.empty() || many.empty()) { return Color{0.0}; }
+HALFLIGHT_INLINE std::optional<Color> over_pixel(LitRegion& region, const FinalGather::Place& own, std::span<const FinalGather::Place> few,
+                                                 std::span<const FinalGather::Place> many) {
+  if (few.empty() || many.empty()) { return std::nullopt; }
   const auto light = [&](std::size_t lamp, const FinalGather::Place& place) {
     return region.lamp(lamp).exitance * region.form_factor(lamp, place.point.position, place.point.normal);
   };
@@ -22,14 +23,13 @@ HALFLIGHT_INLINE Color over_pixel(LitRegion& region, const FinalGather::Place& o
     return *most - *least;
   };
   struct OfLamp {
-    Color own{0.0}, mean{0.0};
+    Color mean{0.0};
     double difference = 0.0;
   };
   std::vector<OfLamp> lamps(region.size());
   std::vector<double> of_lamp(few.size() + 1), of_all(few.size() + 1, 0.0);  // at few and own, sum of channels
   for (std::size_t k = 0; k < lamps.size(); ++k) {
-    lamps[k].own = light(k, own);
-    of_lamp.back() = sum(lamps[k].own);
+    of_lamp.back() = sum(light(k, own));
     for (std::size_t i = 0; i < few.size(); ++i) {
       const Color l = light(k, few[i]);
       of_lamp[i] = sum(l);
@@ -41,15 +41,15 @@ HALFLIGHT_INLINE Color over_pixel(LitRegion& region, const FinalGather::Place& o
   const double most = *std::max_element(of_all.begin(), of_all.end());
   const bool differ = difference(of_all) > change_at_edge * most;
   constexpr double little = 0.02;  // of the light of all
-  Color change{0.0};
+  Color all{0.0};
   for (std::size_t k = 0; k < lamps.size(); ++k) {
     if (differ && lamps[k].difference > little * most) {
       lamps[k].mean = Color{0.0};
       for (const FinalGather::Place& place : many) { lamps[k].mean += light(k, place) / static_cast<double>(many.size()); }
     }
-    change += lamps[k].mean - lamps[k].own;
+    all += lamps[k].mean;
   }
-  return change;
+  return all;
 }
 
 }  // namespace radiosity

@@ -62,6 +62,7 @@ class DirectLight {
     double correction = 1.0;               // that over the area of the facets
     glm::dvec3 centre{0.0};                // of a sphere around it
     double radius = 0.0;
+    double width = 0.0;                 // of a cylinder around it, along its longest edge
     std::array<glm::dvec3, 4> corners;  // of a rectangle around it, in its plane; of a curved one, around a point of it
     double bulge = 0.0;                 // how far it leaves the rectangle
     std::vector<SampleEnd> ends;        // of each facet

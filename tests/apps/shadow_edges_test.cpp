@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Shadows of a small distant lamp in the gathered picture: their edges are as soft as the pixels are covered, and thin ones are whole.
+// Shadows of a distant lamp in the gathered picture, a small one or a long tube: their edges are as soft as the pixels are covered, and thin
+// ones are whole.
 #include "catch.hpp"
 
 #include <array>
@@ -49,13 +50,36 @@ struct Blade {
   }
 };
 
+// A lamp .02 wide, this long, along the blade.
+std::string sun_along(const Blade& blade, double length) {
+  std::ostringstream out;
+  out.precision(17);
+  out << "polygon sun material sun {\n";
+  const glm::dvec2 a = 0.5 * length * blade.along(), b = 0.01 * glm::dvec2{-blade.along().y, blade.along().x};
+  for (const glm::dvec2& p : {-a - b, b - a, a + b, a - b}) { out << " vertex " << sun.x + p.x << " " << sun.y + p.y << " 100\n"; }
+  out << "}\n";
+  return out.str();
+}
+
+// The light that a floor of reflectance .5 reflects at (x, y) from that lamp, if nothing is in the way, of exitance 1e8: by pieces of it,
+// both cosines 100 / d.
+double unhidden(const Blade& blade, double length, double x, double y) {
+  constexpr int pieces = 64;
+  double sum = 0.0;
+  for (int k = 0; k < pieces; ++k) {
+    const glm::dvec2 at = glm::dvec2{sun.x - x, sun.y - y} + length * ((k + 0.5) / pieces - 0.5) * blade.along();
+    const double d2 = at.x * at.x + at.y * at.y + sun.z * sun.z;
+    sum += 0.5 * 1e8 * (0.02 * length / pieces) * sun.z * sun.z / (std::numbers::pi * d2 * d2);
+  }
+  return sum;
+}
+
 // The share of the sun's light that each pixel shows.
-std::vector<double> shown(const Blade& blade) {
+std::vector<double> shown(const Blade& blade, double sun_length = 0.02) {
   const apps::SceneResult parsed = apps::parse_scene(
       "material floor reflectance 0.5\nmaterial black reflectance 0\nmaterial sun reflectance 0 emission 1e8\n"
-      "polygon floor material floor {\n vertex -1 -1 0\n vertex 1 -1 0\n vertex 1 1 0\n vertex -1 1 0\n}\n"
-      "polygon sun material sun {\n vertex 59.99 -0.01 100\n vertex 59.99 0.01 100\n vertex 60.01 0.01 100\n vertex 60.01 -0.01 100\n}\n" +
-      blade.text() + "camera above eye 0 0 5 target 0 0 0 up 0 1 0 fov 60\n");
+      "polygon floor material floor {\n vertex -1 -1 0\n vertex 1 -1 0\n vertex 1 1 0\n vertex -1 1 0\n}\n" +
+      sun_along(blade, sun_length) + blade.text() + "camera above eye 0 0 5 target 0 0 0 up 0 1 0 fov 60\n");
   REQUIRE(parsed.file);
   const radiosity::Scene& scene = parsed.file->scene;
   radiosity::Options options;
@@ -72,9 +96,7 @@ std::vector<double> shown(const Blade& blade) {
   std::vector<double> result;
   for (std::uint32_t i = 0; i < side * side; ++i) {
     const double x = (i % side + 0.5) * pixel - half, y = half - (i / side + 0.5) * pixel;
-    const double d2 = (sun.x - x) * (sun.x - x) + y * y + sun.z * sun.z;
-    const double all = 0.5 * 1e8 * 4e-4 * sun.z * sun.z / (std::numbers::pi * d2 * d2);  // a small lamp's, both cosines 100 / d
-    result.push_back(picture.radiosity[i].x / all);
+    result.push_back(picture.radiosity[i].x / unhidden(blade, sun_length, x, y));
   }
   return result;
 }
@@ -125,6 +147,22 @@ TEST_CASE("the shadow of a thin thing is whole") {
     CAPTURE(blade.angle);
     double dark = 0.0;
     for (const double light : shown(blade)) { dark += (1.0 - light) * pixel * pixel; }
+    CHECK(dark == test::Approx(blade.length * blade.width * 100 * 100 / (99 * 99)).epsilon(0.05));
+  }
+}
+
+// Along a tube a rod has a shadow as thin as itself, however long the tube: each point of the lamp puts the same area into shadow, by and by
+// along the line.
+TEST_CASE("the shadow of a thin thing along a long lamp is whole") {
+  constexpr unsigned seed = 20261127;
+  INFO("seed " << seed);
+  std::mt19937 random{seed};
+  std::uniform_real_distribution<double> uniform;
+  for (int turn = 0; turn < 8; ++turn) {
+    const Blade blade{0.3, 1.5 * pixel, 2 * std::numbers::pi * uniform(random)};
+    CAPTURE(blade.angle);
+    double dark = 0.0;
+    for (const double light : shown(blade, 14.0)) { dark += (1.0 - light) * pixel * pixel; }
     CHECK(dark == test::Approx(blade.length * blade.width * 100 * 100 / (99 * 99)).epsilon(0.05));
   }
 }
