@@ -47,8 +47,9 @@ struct PlaneFit {
   Color e{0.0}, eu{0.0}, ev{0.0};
   const auto each = [&](const auto& use) {
     for (const GatheredPoint* other : near) {
-      const double own = point.weight(other->position, other->normal, other->object, sphere);
+      double own = point.weight(other->position, other->normal, other->object, sphere);
       if (!(own > 0.0)) { continue; }
+      own *= std::min(1.0, other->radius * other->radius / (point.radius * point.radius));
       const glm::dvec3 d = (other->position - point.position) / sphere;
       use(own, glm::dot(d, point.s), glm::dot(d, point.t), *other);
     }

@@ -5,9 +5,10 @@
 // distance of what a point sees, so each point is good for a sphere around it whose radius follows from these distances.
 //
 // The light of a point and how it changes are taken from all points in a sphere around it (weighted least squares), which also takes out
-// most of the noise of the rays. That sphere may be wider than the one for which the point is good: where points are close for other
-// reasons than the light, they have much noise to share and little to tell apart. The widest sphere is taken in which a plane explains what
-// was gathered up to the noise that it has.
+// most of the noise of the rays. Points with a smaller sphere lie closer, and each counts by the area of its own: a crowd in a bright gap
+// does not draw the plane to itself. The sphere of the fit may be wider than the one for which the point is good: where points are close
+// for other reasons than the light, they have much noise to share and little to tell apart. The widest sphere is taken in which a plane
+// explains what was gathered up to the noise that it has.
 //
 // Beyond its points a plane soon says nonsense, less than no light at all beside a lamp. So what it says is held within bounds that the
 // points give (neighbour clamping, Krivanek 2006): all channels by the same part, or the light would change its colour there.

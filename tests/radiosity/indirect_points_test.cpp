@@ -128,6 +128,37 @@ TEST_CASE("a wide fit does not carry indirect light over a step") {
   }
 }
 
+// In the gap above a lamp light is far brighter than around it, and points crowd there. Each stands for its own sphere, so that the gap
+// counts by its area: means carry out of it what it holds at most, and planes stay within twice that.
+TEST_CASE("a crowd of points in a bright gap does not draw the light beside it to itself") {
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    CAPTURE(seed);
+    radiosity::Random random{seed, 0};
+    radiosity::IndirectPoints points{200, 200};
+    const auto in_gap = [](double x) { return x > 100 && x < 104; };
+    const auto add = [&](double x, double radius) {
+      radiosity::IndirectPoint point = point_at(x, 200 * random.uniform(), radius, Color{in_gap(x) ? 8.0 : 1.0});
+      point.variance = 1e-6;
+      point.widest = 3.0 * point.radius;
+      point.widest_pixels = 3.0 * point.pixels;
+      points.add(point);
+    };
+    for (int k = 0; k < 600; ++k) { add(100 + 4 * random.uniform(), 2.0); }
+    for (int k = 0; k < 400; ++k) {
+      const double x = 200 * random.uniform();
+      if (!in_gap(x)) { add(x, 20.0); }
+    }
+    for (std::size_t i = 0; i < points.size(); ++i) { points.fit(i); }
+    double carried = 0.0;
+    for (int k = 0; k < 4000; ++k) {
+      const double x = 200 * random.uniform(), y = 200 * random.uniform();
+      const auto found = points.at(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), {0.01 * x, 0.01 * y, 0.0}, {0, 0, 1}, 0);
+      if (found && !in_gap(x)) { carried += std::abs(found->x - 1.0) / 4000; }
+    }
+    CHECK(carried < 2.0 * 7.0 * 4 / 200);
+  }
+}
+
 TEST_CASE("a point of indirect light says nothing about another object, another side of a crease, or what lies off its plane") {
   radiosity::IndirectPoints points{100, 80};
   points.add(point_at(50, 40, 20, Color{1.0}));

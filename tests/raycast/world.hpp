@@ -83,6 +83,7 @@ inline World world(Random& random, int count, double scale, const dvec3& shift, 
   const auto gutter = Mesh::make({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {1, 0, 1}, {1, 1, 1}}, {{0, 1, 2, 3}, {1, 4, 5, 2}});
   const auto ball = mesh_of(*Sphere::make({0, 0, 0}, 0.8), 0.02);
   const auto star = Polygon::make({{0, 0, 0}, {1, -1, 0}, {0.5, 0, 0}, {1, 1, 0}, {-1, 0.2, 0}});
+  const auto box_to_octahedron = [&] { return 0.001 * std::pow(2000.0, random.uniform(0, 1)); };  // exponents: powers of 2 000 to 1
   for (int i = 0; i < count; ++i) {
     const double size = 0.6 * scale / std::cbrt(static_cast<double>(count));
     dvec3 at = 0.9 * random.in_cube();
@@ -124,7 +125,7 @@ inline World world(Random& random, int count, double scale, const dvec3& shift, 
         add(placed(Torus::make({0, 0, 0}, random.direction(), 0.7, random.uniform(0.03, 0.6)), p));
         break;
       case 11:  // convex
-        add(placed(Superquadric::make({0, 0, 0}, {1, 0.5, 0.7}, random.uniform(0.15, 2), random.uniform(0.15, 2)), p));
+        add(placed(Superquadric::make({0, 0, 0}, {1, 0.5, 0.7}, box_to_octahedron(), box_to_octahedron()), p));
         break;
       case 12:  // pinched
         add(placed(Superquadric::make({0, 0, 0}, {0.8, 1, 0.7}, random.uniform(0.3, 4), random.uniform(2, 6)), p));
