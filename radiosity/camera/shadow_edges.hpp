@@ -17,8 +17,8 @@ inline constexpr double change_at_edge = 0.3;
 
 // The direct light on the pixel of `own`: the mean over `few` other places of the pixel or, if these and `own` differ, for the lamps that
 // make the difference the mean over `many`. All are places of the region; nothing when few or many are empty.
-[[nodiscard]] std::optional<Color> over_pixel(LitRegion& region, const FinalGather::Place& own,
-                                              std::span<const FinalGather::Place> few, std::span<const FinalGather::Place> many);
+[[nodiscard]] std::optional<Color> over_pixel(LitRegion& region, const FinalGather::Place& own, std::span<const FinalGather::Place> few,
+                                              std::span<const FinalGather::Place> many);
 
 }  // namespace radiosity
 

@@ -71,24 +71,6 @@ inline constexpr std::size_t samples_of_joined = 1024;
   return {origin + u0 * u + v0 * v, origin + u1 * u + v0 * v, origin + u1 * u + v1 * v, origin + u0 * u + v1 * v};
 }
 
-// The width of a cylinder around the facets whose axis runs through the centre, along their longest edge.
-[[nodiscard]] HALFLIGHT_INLINE double width_about_longest_edge(const Facets& facets, const glm::dvec3& centre) {
-  glm::dvec3 longest{0.0};
-  for (const Facets::Facet& facet : facets.facets) {
-    for (std::size_t k = 0; k < facet.contour.size(); ++k) {
-      const glm::dvec3 edge = facet.contour[(k + 1) % facet.contour.size()] - facet.contour[k];
-      if (glm::dot(edge, edge) > glm::dot(longest, longest)) { longest = edge; }
-    }
-  }
-  const double length = glm::length(longest);
-  const glm::dvec3 axis = length > 0.0 ? longest / length : longest;
-  double radius = 0.0;
-  for (const Facets::Facet& facet : facets.facets) {
-    for (const glm::dvec3& p : facet.contour) { radius = std::max(radius, glm::length(glm::cross(axis, p - centre))); }
-  }
-  return 2.0 * radius;
-}
-
 // Is the point in front of more than half of the area?
 [[nodiscard]] HALFLIGHT_INLINE bool surrounds(const Facets& facets, const glm::dvec3& point) {
   double in_front = 0.0, total = 0.0;
@@ -156,7 +138,7 @@ HALFLIGHT_INLINE DirectLight::Lamp DirectLight::make_lamp(const raycast::Scene& 
   for (const Facets::Facet& facet : lamp.facets.facets) {
     for (const glm::dvec3& p : facet.contour) { lamp.radius = std::max(lamp.radius, glm::length(p - lamp.centre)); }
   }
-  lamp.width = detail::width_about_longest_edge(lamp.facets, lamp.centre);
+  lamp.width = width_about_longest_edge(lamp.facets, lamp.centre);
   if (lamp.flat) {
     lamp.corners = detail::rectangle_around(lamp.facets, first.normal);
   } else {

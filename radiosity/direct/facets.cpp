@@ -213,4 +213,21 @@ HALFLIGHT_INLINE double form_factor(const Facets& facets, const glm::dvec3& x, c
   return form_factor(facets, Facets::Part{0, size(facets.facets), 0, size(facets.edges)}, x, n, slack, facing);
 }
 
+HALFLIGHT_INLINE double width_about_longest_edge(const Facets& facets, const glm::dvec3& centre) {
+  glm::dvec3 longest{0.0};
+  for (const Facets::Facet& facet : facets.facets) {
+    for (std::size_t k = 0; k < facet.contour.size(); ++k) {
+      const glm::dvec3 edge = facet.contour[(k + 1) % facet.contour.size()] - facet.contour[k];
+      if (glm::dot(edge, edge) > glm::dot(longest, longest)) { longest = edge; }
+    }
+  }
+  const double length = glm::length(longest);
+  const glm::dvec3 axis = length > 0.0 ? longest / length : longest;
+  double radius = 0.0;
+  for (const Facets::Facet& facet : facets.facets) {
+    for (const glm::dvec3& p : facet.contour) { radius = std::max(radius, glm::length(glm::cross(axis, p - centre))); }
+  }
+  return 2.0 * radius;
+}
+
 }  // namespace radiosity

@@ -91,6 +91,9 @@ void for_outline(std::span<const Facets::Edge> edges, const std::vector<char>& f
   }
 }
 
+// The width of a cylinder around the facets whose axis runs through the centre, along their longest edge.
+[[nodiscard]] double width_about_longest_edge(const Facets& facets, const glm::dvec3& centre);
+
 }  // namespace radiosity
 
 #ifdef HALFLIGHT_HEADER_ONLY

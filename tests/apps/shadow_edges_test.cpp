@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Shadows of a distant lamp in the gathered picture, a small one or a long tube: their edges are as soft as the pixels are covered, and thin
-// ones are whole.
+// Shadows of a distant lamp in the gathered picture, a small one or a long tube: their edges are as soft as the pixels are covered, and
+// thin ones are whole.
 #include "catch.hpp"
 
 #include <array>
@@ -151,7 +151,7 @@ TEST_CASE("the shadow of a thin thing is whole") {
   }
 }
 
-// Along a tube a rod has a shadow as thin as itself, however long the tube: each point of the lamp puts the same area into shadow, by and by
+// Along a tube a rod has a shadow as thin as itself, however long the tube: each point of the lamp puts the same area into shadow, shifted
 // along the line.
 TEST_CASE("the shadow of a thin thing along a long lamp is whole") {
   constexpr unsigned seed = 20261127;
