@@ -65,7 +65,11 @@ class Text {
 
   void errors() {
     out_ += "error (RMS, relative to the RMS of the reflected radiosity; 95 % interval)\n";
-    if (audit_.picture_error) { out_ += picture_error_text(*audit_.picture_error, report_.picture ? report_.picture->camera : ""); }
+    if (audit_.picture_error) {
+      out_ += picture_error_text(*audit_.picture_error, report_.picture ? report_.picture->camera : "");
+    } else if (report_.picture && report_.options.audit_points > 0 && !audit_.interrupted) {
+      row("picture " + report_.picture->camera, "unknown: it shows nothing but lamps, or paths from its pixels find too little light");
+    }
     if (report_.options.reconstruction != radiosity::Reconstruction::none) { row("surfaces", error_text(audit_.surface_error)); }
     row("leaf constants", error_text(audit_.leaf_error));
     const auto& surfaces = audit_.surface_error ? audit_.surface_error : audit_.leaf_error;

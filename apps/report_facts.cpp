@@ -49,7 +49,8 @@ void add_picture_error(Facts& facts, const radiosity::PictureError& picture) {
   facts.add("error.picture.rays", picture.rays);
 }
 
-void add_errors(Facts& facts, const radiosity::Audit& audit) {
+void add_errors(Facts& facts, const Report& report) {
+  const radiosity::Audit& audit = report.audit;
   if (!audit.leaf_error) { return facts.add("error", {}); }
   if (audit.surface_error) { add_error(facts, "error", *audit.surface_error); }  // else nobody asked for a reconstruction
   facts.add("error.points", audit.audit_points);
@@ -65,7 +66,11 @@ void add_errors(Facts& facts, const radiosity::Audit& audit) {
     facts.add("error.mesh.wanted", audit.mesh->wanted, "%");
     facts.add("error.mesh.met", audit.mesh->met);
   }
-  if (audit.picture_error) { add_picture_error(facts, *audit.picture_error); }
+  if (audit.picture_error) {
+    add_picture_error(facts, *audit.picture_error);
+  } else if (report.picture) {
+    facts.add("error.picture", {});
+  }
 }
 
 // Stages of one name (a run that was repeated to meet its error target) are added up; of their peaks the last is the largest.
@@ -175,7 +180,7 @@ Facts facts_of(const Report& report) {
   facts.add("program", std::string("halflight"));
   facts.add("version", std::string(version));
   facts.add("scene", report.scene);
-  add_errors(facts, audit);
+  add_errors(facts, report);
   add_stages(facts, report);
   facts.add("polygons", audit.polygons);
   facts.add("nodes", audit.nodes);

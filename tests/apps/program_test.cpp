@@ -160,6 +160,20 @@ TEST_CASE("the error of a picture does not depend on the unit of light") {
   CHECK(error[2] == error[0]);
 }
 
+TEST_CASE("the error of a picture of nothing but lamps is unknown, and the report says so") {
+  const Place place;
+  place.write("a.scene",
+              "material white  reflectance 0.5\nmaterial lamp  reflectance 0  emission 1\n"
+              "box room  from 0 0 0  to 1 1 1  inside  material white { sheet y1 material lamp }\n"
+              "camera eye  eye 0.5 0.8 0.5  target 0.5 1 0.5  fov 60\n");
+  const std::string arguments = "render a.scene -o a.png --json a.json --size 16x16 --epsilon 0.1 --quiet";
+  const Run run = place.run(arguments);
+  REQUIRE(run.code == 0);
+  CHECK(run.out.find("picture eye             unknown") != std::string::npos);
+  CHECK(json::parse(place.read("a.json"))["error"]["picture"].is_null());
+  CHECK(place.run(arguments + " --audit 0").out.find("unknown") == std::string::npos);  // nobody asked
+}
+
 TEST_CASE("a camera in words shows what the same camera in the scene shows, to the bit") {
   const program::Place place;
   const std::string scene =
