@@ -146,6 +146,10 @@ HALFLIGHT_INLINE std::vector<std::uint32_t> ray_counts(const DiscreteScene& scen
     weighted += caster.weight * std::sqrt(area[caster.node]);
   }
   constexpr double least = 32.0;  // fewer tell too little of what is near a node
+  // Where the camera looks slivers may weigh hundreds of times what others do. All together get no more than as many even ones would.
+  constexpr double few = 0x1p22;
+  const double wished = mean * weighted * weighted / all, even = mean * static_cast<double>(casters.size());
+  if (scene.control.viewpoint && wished > std::max(few, even)) { mean *= std::max(few, even) / wished; }
   std::vector<std::uint32_t> counts(scene.hierarchy.size(), 0);
   for (const Caster& caster : casters) {
     if (!(area[caster.node] > 0.0)) { continue; }
