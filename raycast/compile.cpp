@@ -116,13 +116,8 @@ HALFLIGHT_INLINE void Compiler::add(std::uint32_t index, const PlacedObject& obj
   index_ = index;
   const glm::dmat3& m = object.placement().linear;
   turned_ = (glm::determinant(m) < 0.0) != object.inside();
-  const glm::dmat3 square = glm::transpose(m) * m;
-  const double s = (square[0][0] + square[1][1] + square[2][2]) / 3;
-  similar_ = true;
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) { similar_ = similar_ && std::abs(square[i][j] - (i == j ? s : 0.0)) <= tol_similar * s; }
-  }
-  stretch_ = std::sqrt(s);
+  similar_ = keeps_angles(m);
+  stretch_ = std::sqrt((glm::dot(m[0], m[0]) + glm::dot(m[1], m[1]) + glm::dot(m[2], m[2])) / 3);
   out_.bounds.push_back(rounded(scaled(object.bounds())));
   out_.roles.push_back(!outline.empty() ? Role::polygon : object.solid() ? Role::solid : Role::surface);
   out_.first_sheet.push_back(no_shape);

@@ -155,7 +155,7 @@ HALFLIGHT_INLINE bool Scene::within(std::uint32_t object, std::span<const glm::d
 }
 
 // A room kept as faces blocks nothing between patches if none of its faces may, and a point in the air, or an owner, tells that they are in
-// it. A convex polyhedral room blocks nothing between patches that lie in it or on it.
+// it. A convex room blocks nothing between patches that lie in it or on it.
 HALFLIGHT_INLINE bool Scene::rooms_clear(const PatchShape& a, const PatchShape& b, const OccluderList& list,
                                          const Corners16& corners) const {
   for (const Guard& room : compiled_.face_rooms) {

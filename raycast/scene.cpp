@@ -69,7 +69,7 @@ HALFLIGHT_INLINE void Scene::compile() {
   constexpr std::size_t loop_limit = 64;
   double touch = 0.0;
   for (const Record& record : records_) { touch = std::max(touch, record.touch); }
-  compiled_ = {}, walls_.clear(), first_wall_ = {0};
+  compiled_ = {}, walls_.clear();
   Compiler compiler(compiled_, bounds_, rounding_ + 2 * slack_ + touch);
   for (std::uint32_t i = 0; i < objects_.size(); ++i) {
     const Record& r = records_[i];
@@ -77,15 +77,20 @@ HALFLIGHT_INLINE void Scene::compile() {
     compiler.add(i, objects_[i], outline, r.normal, left_out_[i] ? Compiler::Rays::pass : Compiler::Rays::meet);
   }
   compiler.finish(loop_limit);
+  constexpr std::uint32_t most_planes = 32, most_curved = 3;
   for (const std::uint32_t room : compiled_.rooms) {
     const PlacedObject& object = objects_[room];
-    if (object.convex() && object.flat() && object.sheet_count() <= 32) {
-      for (std::uint32_t sheet = 0; sheet < object.sheet_count(); ++sheet) {
-        const SurfacePoint wall = object.project(sheet, object.bounds().centre());
-        walls_.push_back({wall.position, wall.normal});
-      }
+    Walls& walls = walls_.emplace_back();
+    if (!object.convex() || object.sheet_count() > (object.flat() ? most_planes : most_curved)) { continue; }
+    if (!object.flat()) {
+      const bool tells = object.object().nearest() && keeps_angles(object.placement().linear);
+      walls.curved_sheets = tells ? object.sheet_count() : 0;
+      continue;
     }
-    first_wall_.push_back(static_cast<std::uint32_t>(walls_.size()));
+    for (std::uint32_t sheet = 0; sheet < object.sheet_count(); ++sheet) {
+      const SurfacePoint wall = object.project(sheet, object.bounds().centre());
+      walls.planes.push_back({wall.position, wall.normal});
+    }
   }
 }
 

@@ -83,7 +83,7 @@ class Scene {
   [[nodiscard]] double ray_work(const Segment& ray) const;
   [[nodiscard]] std::size_t bytes() const {  // of the compiled scene, without the objects themselves
     return objects_.capacity() * sizeof(PlacedObject) + records_.capacity() * sizeof(Record) + corners_.capacity() * sizeof(glm::dvec3) +
-           walls_.capacity() * sizeof(Plane) + compiled_.bytes();
+           walls_.capacity() * sizeof(Walls) + compiled_.bytes();
   }
 
   // Does anything stand between the two ends, t in (0, 1)? The owners are the objects on which the ends lie. Symmetric: exchanging ends
@@ -171,13 +171,20 @@ class Scene {
   void drop_guards(OccluderList& list, const Corners16& corners) const;
   [[nodiscard]] bool within(std::uint32_t object, std::span<const glm::dvec3> points) const;
   [[nodiscard]] bool rooms_clear(const PatchShape& a, const PatchShape& b, const OccluderList& list, const Corners16& corners) const;
-  // Is the point in the convex polyhedral room number r, or on its wall as well as rounding can tell? False for other rooms.
-  [[nodiscard]] bool in_room(std::size_t r, const glm::dvec3& p, double bulge = 0.0) const {
-    const std::uint32_t first = first_wall_[r], end = first_wall_[r + 1];
-    for (std::uint32_t k = first; k < end; ++k) {
-      if (!(glm::dot(walls_[k].normal, p - walls_[k].point) >= bulge - 0.5 * rounding_)) { return false; }
+  // Is the point in the convex room number r, and at least `depth` from its walls, or on one as well as rounding can tell? False for rooms
+  // that do not tell (Walls).
+  [[nodiscard]] bool in_room(std::size_t r, const glm::dvec3& p, double depth = 0.0) const {
+    const Walls& walls = walls_[r];
+    const auto within = [&](const glm::dvec3& point, const glm::dvec3& normal) {
+      return glm::dot(normal, p - point) >= depth - 0.5 * rounding_;
+    };
+    for (std::uint32_t sheet = 0; sheet < walls.curved_sheets; ++sheet) {
+      const SurfacePoint nearest = objects_[compiled_.rooms[r]].project(sheet, p);
+      if (!within(nearest.position, nearest.normal)) { return false; }
     }
-    return first < end;
+    return walls.curved_sheets > 0 ||
+           (!walls.planes.empty() &&
+            std::all_of(walls.planes.begin(), walls.planes.end(), [&](const Plane& wall) { return within(wall.point, wall.normal); }));
   }
   // What the ray meets of rooms, after all else: a point within a convex room, farther from its walls than ties reach, is met before these.
   void approach_rooms(Search& search) const;
@@ -225,8 +232,13 @@ class Scene {
   std::vector<bool> left_out_;  // by object
   std::vector<Record> records_;
   std::vector<glm::dvec3> corners_;
-  std::vector<Plane> walls_;                  // of the convex polyhedral rooms, normals inwards
-  std::vector<std::uint32_t> first_wall_{0};  // by room
+  // How a convex room tells whether a point is in it: a polyhedral one by its planes, normals inwards; a curved one by the nearest points
+  // of its sheets. A room of many walls has neither, nor has one whose project() does not find the nearest point.
+  struct Walls {
+    std::vector<Plane> planes;
+    std::uint32_t curved_sheets = 0;
+  };
+  std::vector<Walls> walls_;  // by room
   Compiled compiled_;
   OtherCaster other_;
   Isa isa_;

@@ -52,6 +52,17 @@ HALFLIGHT_INLINE double stretch(const glm::dmat3& linear) {
   return std::exp(0.5 * log_scale);
 }
 
+HALFLIGHT_INLINE bool keeps_angles(const glm::dmat3& linear) {
+  const glm::dmat3 square = glm::transpose(linear) * linear;
+  const double s = (square[0][0] + square[1][1] + square[2][2]) / 3;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      if (!(std::abs(square[i][j] - (i == j ? s : 0.0)) <= tol_similar * s)) { return false; }
+    }
+  }
+  return true;
+}
+
 HALFLIGHT_INLINE PlacedObject::PlacedObject(std::shared_ptr<const Object> object, const Placement& placement)
     : object_(std::move(object)), placement_(placement), identity_(placement.identity()) {
   if (!identity_) {

@@ -52,6 +52,9 @@ struct Placement {
 // between the largest eigenvalue of L^T L and 3^(1/512) times it.
 [[nodiscard]] double stretch(const glm::dmat3& linear);
 
+// Is the map a similarity (rotation, mirror, uniform scale), as well as rounding can tell?
+[[nodiscard]] bool keeps_angles(const glm::dmat3& linear);
+
 // An object in the world. It answers what Object answers, in world coordinates; cheap to copy.
 class PlacedObject {
  public:
@@ -100,7 +103,7 @@ class PlacedObject {
   // The tolerance is a length in the world.
   void approximate(double tolerance, brep::Builder& out) const;
 
-  // On the sheet always. The nearest point when the map keeps angles (rotation, uniform scale, mirror); otherwise the image of the
+  // On the sheet always. The nearest point when the map keeps angles; otherwise the image of the
   // point that is nearest in object space, which is at most the map's condition number times as far away as the nearest one.
   [[nodiscard]] SurfacePoint project(std::uint32_t sheet, const glm::dvec3& p) const;
   [[nodiscard]] glm::dvec3 vertex(std::uint32_t sheet, const glm::dvec3& p) const;

@@ -11,10 +11,23 @@ using namespace test;
 
 namespace {
 
+Made<Object> any_body(std::uint32_t shape) {
+  switch (shape) {
+    case 0:
+      return BoxObject::make({-1, -1, -1}, {1, 1, 1});
+    case 1:
+      return Sphere::make({0, 0, 0}, 1.3);
+    case 2:
+      return Cylinder::make({0, 0, -1}, {0, 0, 2}, 1.2);
+    default:
+      return Cone::make({0, 0, -1}, {0, 0, 3}, 1.5, 0.5);
+  }
+}
+
 // A room about the origin, and boxes and spheres in it: some stand on a wall from within, some stick in one, some stand beyond.
-std::vector<PlacedObject> furnished(Random& random, const Placement& turned) {
+std::vector<PlacedObject> furnished(Random& random, const Placement& turned, std::uint32_t shape) {
   const Placement room{turned.linear, turned.translation, true};
-  std::vector<PlacedObject> objects{placed(BoxObject::make({-1, -1, -1}, {1, 1, 1}), room)};
+  std::vector<PlacedObject> objects{placed(any_body(shape), room)};
   for (int i = 0; i < 12; ++i) {
     const double size = random.uniform(0.05, 0.3);
     dvec3 at = 1.3 * random.in_cube();
@@ -35,9 +48,9 @@ std::vector<PlacedObject> furnished(Random& random, const Placement& turned) {
 
 TEST_CASE("the first hit in a furnished room is the nearest begin of a span, the walls' included, alone and by sixteen") {
   SEEDED(random);
-  for (int k = 0; k < 20; ++k) {
+  for (std::uint32_t k = 0; k < 40; ++k) {
     const Placement turned{random.rotation(), random.in_cube(), false};
-    const std::vector<PlacedObject> objects = furnished(random, turned);
+    const std::vector<PlacedObject> objects = furnished(random, turned, k % 4);
     const Scene scene(objects);
     int walls = 0, things = 0;
     for (int i = 0; i < 50; ++i) {

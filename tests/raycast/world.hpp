@@ -65,6 +65,26 @@ struct World {
   std::vector<Facet> faces;
 };
 
+// A convex room around most of the cube [-1, 1]^3, mapped by scale and shift.
+inline PlacedObject convex_room(Random& random, double scale, const dvec3& shift) {
+  Placement p{random.rotation() * scale, shift, true};
+  switch (random.below(6)) {
+    case 0:
+      return placed(Sphere::make({0, 0, 0}, 1.5), p);
+    case 1:
+      return placed(Cylinder::make({0, 0, -1.2}, {0, 0, 2.4}, 1.3), p);
+    case 2:
+      return placed(Cone::make({0, 0, -1.2}, {0, 0, 3}, 1.8, random.below(2) ? 0.0 : 1.0), p);
+    case 3:
+      p.linear = p.linear * glm::dmat3(1, 0.2, 0, 0, 1.5, 0, 0.1, 0, -0.9);
+      return placed(random.below(2) ? Made<Object>(Sphere::make({0, 0, 0}, 1.5))
+                                    : Made<Object>(Superquadric::make({0, 0, 0}, {1.3, 1.2, 1.5}, 0.5, 0.5)),
+                    p);
+    default:
+      return placed(BoxObject::make(shift - 1.05 * scale, shift + 1.05 * scale), room());
+  }
+}
+
 // A room with objects of every kind, some of them touching, at any scale and any place.
 inline World world(Random& random, int count, double scale, const dvec3& shift, bool with_room) {
   World w;
@@ -79,7 +99,7 @@ inline World world(Random& random, int count, double scale, const dvec3& shift, 
     }
     w.objects.push_back(object);
   };
-  if (with_room) { add(placed(BoxObject::make(shift - 1.05 * scale, shift + 1.05 * scale), room())); }
+  if (with_room) { add(convex_room(random, scale, shift)); }
   const auto gutter = Mesh::make({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {1, 0, 1}, {1, 1, 1}}, {{0, 1, 2, 3}, {1, 4, 5, 2}});
   const auto ball = mesh_of(*Sphere::make({0, 0, 0}, 0.8), 0.02);
   const auto star = Polygon::make({{0, 0, 0}, {1, -1, 0}, {0.5, 0, 0}, {1, 1, 0}, {-1, 0.2, 0}});
