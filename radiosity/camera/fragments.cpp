@@ -79,7 +79,7 @@ HALFLIGHT_INLINE void add_lamp(LitRegion& region, std::size_t k, std::span<const
   const auto add = [&](std::uint32_t i, double visible) {
     if (visible > 0.0) { irradiance[i] += region.lamp(k).exitance * (visible * region.unhidden(k, point(i).position, point(i).normal)); }
   };
-  const auto visible = [&](std::uint32_t i) { return region.visible(k, point(i).position, point(i).normal); };
+  const auto visible = [&](std::uint32_t i) { return region.visible(k, point(i).position, point(i).normal, irradiance[i]); };
   const auto all = [&](double share) {
     for (const std::uint32_t i : own) { add(i, share); }
   };

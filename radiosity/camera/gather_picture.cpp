@@ -248,10 +248,10 @@ HALFLIGHT_INLINE void GatherPainter::light_block(std::size_t block) {
     while (end < order.size() && fragments[order[end]].place.surface == surface) { ++end; }
     if (is_black(light_.material(surface).reflectance)) { continue; }
     const auto own = std::span(order).subspan(begin, end - begin);
+    for (const std::uint32_t i : own) { irradiance[i] = indirect_at(fragments[i]); }
     add_direct_light(light_, own, fragments, irradiance);
     for (const std::uint32_t i : own) {
       const Fragment& f = fragments[i];
-      irradiance[i] += indirect_at(f);
       if (surface_of(f.x, f.y) == surface) {
         lit_[std::size_t{f.y} * view_.size.width + f.x] = static_cast<float>(irradiance[i].x + irradiance[i].y + irradiance[i].z);
       }

@@ -14,8 +14,8 @@ namespace radiosity {
 HALFLIGHT_INLINE std::optional<Color> over_pixel(LitRegion& region, const FinalGather::Place& own, std::span<const FinalGather::Place> few,
                                                  std::span<const FinalGather::Place> many) {
   if (few.empty() || many.empty()) { return std::nullopt; }
-  const auto light = [&](std::size_t lamp, const FinalGather::Place& place) {
-    return region.lamp(lamp).exitance * region.form_factor(lamp, place.point.position, place.point.normal);
+  const auto light = [&](std::size_t lamp, const FinalGather::Place& place, const Color& others) {
+    return region.lamp(lamp).exitance * region.form_factor(lamp, place.point.position, place.point.normal, others);
   };
   const auto sum = [](const Color& c) { return c.x + c.y + c.z; };
   const auto difference = [](std::span<const double> values) {
@@ -27,17 +27,18 @@ HALFLIGHT_INLINE std::optional<Color> over_pixel(LitRegion& region, const FinalG
     double difference = 0.0;
   };
   std::vector<OfLamp> lamps(region.size());
-  std::vector<double> of_lamp(few.size() + 1), of_all(few.size() + 1, 0.0);  // at few and own, sum of channels
+  std::vector<double> of_lamp(few.size() + 1), of_all(few.size() + 1);  // at few and own, sum of channels
+  std::vector<Color> so_far(few.size() + 1, Color{0.0});
   for (std::size_t k = 0; k < lamps.size(); ++k) {
-    of_lamp.back() = sum(light(k, own));
-    for (std::size_t i = 0; i < few.size(); ++i) {
-      const Color l = light(k, few[i]);
+    for (std::size_t i = 0; i <= few.size(); ++i) {
+      const Color l = light(k, i < few.size() ? few[i] : own, so_far[i]);
       of_lamp[i] = sum(l);
-      lamps[k].mean += l / static_cast<double>(few.size());
+      so_far[i] += l;
+      if (i < few.size()) { lamps[k].mean += l / static_cast<double>(few.size()); }
     }
     lamps[k].difference = difference(of_lamp);
-    for (std::size_t i = 0; i < of_all.size(); ++i) { of_all[i] += of_lamp[i]; }
   }
+  std::transform(so_far.begin(), so_far.end(), of_all.begin(), sum);
   const double most = *std::max_element(of_all.begin(), of_all.end());
   const bool differ = difference(of_all) > change_at_edge * most;
   constexpr double little = 0.02;  // of the light of all
@@ -45,7 +46,7 @@ HALFLIGHT_INLINE std::optional<Color> over_pixel(LitRegion& region, const FinalG
   for (std::size_t k = 0; k < lamps.size(); ++k) {
     if (differ && lamps[k].difference > little * most) {
       lamps[k].mean = Color{0.0};
-      for (const FinalGather::Place& place : many) { lamps[k].mean += light(k, place) / static_cast<double>(many.size()); }
+      for (const FinalGather::Place& place : many) { lamps[k].mean += light(k, place, all) / static_cast<double>(many.size()); }
     }
     all += lamps[k].mean;
   }

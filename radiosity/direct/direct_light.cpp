@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -52,8 +51,6 @@ inline constexpr std::size_t samples_of_lamp = 256;
 inline constexpr double large_lamp = 0.25;
 inline constexpr std::size_t fine_samples = 4096;
 inline constexpr std::size_t most_fine = 4;
-// Of all joined lamps together; none has less than one round. Each is a small part of the light, but for large ones.
-inline constexpr std::size_t samples_of_joined = 1024;
 
 // A rectangle around points of a plane with this normal.
 [[nodiscard]] HALFLIGHT_INLINE std::array<glm::dvec3, 4> rectangle_around(const Facets& facets, const glm::dvec3& n) {
@@ -149,7 +146,7 @@ HALFLIGHT_INLINE DirectLight::Lamp DirectLight::make_lamp(const raycast::Scene& 
   return lamp;
 }
 
-HALFLIGHT_INLINE void DirectLight::take_samples(Lamp& lamp, std::size_t count, bool fine) const {
+HALFLIGHT_INLINE void DirectLight::take_samples(Lamp& lamp, bool fine, std::uint64_t seed) const {
   for (const std::uint32_t o : lamp.object_of) {
     const raycast::PlacedObject& object = objects_->object(o);
     if (bodies_[o].lift > 0.0) {
@@ -158,8 +155,8 @@ HALFLIGHT_INLINE void DirectLight::take_samples(Lamp& lamp, std::size_t count, b
       lamp.ends.push_back({object.flat() ? raycast::no_object : o, 0.0});
     }
   }
-  lamp.samples = lamp_samples(lamp.facets, lamp.ends, count);
-  if (fine) { lamp.fine = FineSamples{lamp.samples, lamp_samples(lamp.facets, lamp.ends, detail::fine_samples)}; }
+  lamp.samples = lamp_samples(lamp.facets, lamp.ends, detail::samples_of_lamp, seed);
+  if (fine) { lamp.fine = FineSamples{lamp.samples, lamp_samples(lamp.facets, lamp.ends, detail::fine_samples, seed)}; }
 }
 
 HALFLIGHT_INLINE DirectLight::DirectLight(const raycast::Scene& objects, const std::vector<Surface>& surfaces,
@@ -180,23 +177,16 @@ HALFLIGHT_INLINE DirectLight::DirectLight(const raycast::Scene& objects, const s
       if (!is_black(e) && area[sheet] > 0.0) { candidates.push_back({{{s, {sheet}}}, e, brightest(e), area[sheet]}); }
     }
   }
-  std::size_t samples = detail::samples_of_lamp;  // of those that are joined
-  const auto is_joined = [](const Candidate& c) { return c.parts.size() > 1 || c.parts[0].sheets.size() > 1; };
-  if (limits.bodies && candidates.size() > limits.most) {
-    candidates = join_alike(candidates, objects, limits.most);
-    const auto joined = std::count_if(candidates.begin(), candidates.end(), is_joined);
-    const std::size_t lamps = std::clamp<std::size_t>(static_cast<std::size_t>(joined), 1, limits.most);
-    samples = std::clamp<std::size_t>(std::bit_floor(detail::samples_of_joined / lamps), 16, samples);
-  }
+  if (limits.bodies && candidates.size() > limits.most) { candidates = join_alike(candidates, objects, limits.most); }
   std::stable_sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) { return a.strength > b.strength; });
-  std::vector<bool> has_few, is_fine;  // by lamp
+  std::vector<bool> is_fine;  // by lamp
   std::size_t fine_ones = 0;
   double taken = 0.0;
   for (const Candidate& c : candidates) {
     if (lamps_.size() == limits.most) { break; }
     Lamp lamp = make_lamp(objects, surfaces, c);
     if (lamp.facets.empty()) { continue; }
-    const bool large = std::sqrt(c.area) > detail::large_lamp * objects.diameter(), fine = large && fine_ones < detail::most_fine;
+    const bool fine = std::sqrt(c.area) > detail::large_lamp * objects.diameter() && fine_ones < detail::most_fine;
     fine_ones += fine ? 1 : 0;
     if (detail::surrounds(lamp.facets, lamp.centre)) {
       taken += c.area;
@@ -208,14 +198,13 @@ HALFLIGHT_INLINE DirectLight::DirectLight(const raycast::Scene& objects, const s
       }
     }
     lamps_.push_back(std::move(lamp));
-    has_few.push_back(is_joined(c) && !large);
     is_fine.push_back(fine);
   }
   if (lamps_.empty()) { return; }
   take_bodies(surfaces);
   for (std::size_t k = 0; k < lamps_.size(); ++k) {
     Lamp& lamp = lamps_[k];
-    take_samples(lamp, has_few[k] ? samples : detail::samples_of_lamp, is_fine[k]);
+    take_samples(lamp, is_fine[k], k);
     lamp.behind.assign(objects.size(), false);
     const Facets::Facet& plane = lamp.facets.facets[0];
     for (std::uint32_t o = 0; o < bodies_.size() && lamp.flat; ++o) {

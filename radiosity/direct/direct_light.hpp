@@ -119,7 +119,7 @@ class DirectLight {
                                                          std::uint32_t most);
   // A lamp without samples, and these once it is known in place of which objects meshes stand.
   [[nodiscard]] static Lamp make_lamp(const raycast::Scene& objects, const std::vector<Surface>& surfaces, const Candidate& candidate);
-  void take_samples(Lamp& lamp, std::size_t count, bool fine) const;
+  void take_samples(Lamp& lamp, bool fine, std::uint64_t seed) const;
 
   const raycast::Scene* objects_ = nullptr;
   double slack_ = detail::least_slack;  // heights below count as none: twice what faces that are not quite plane are off, if that is more

@@ -21,7 +21,8 @@
 
 namespace radiosity {
 
-HALFLIGHT_INLINE std::vector<LampSample> lamp_samples(const Facets& facets, std::span<const SampleEnd> ends, std::size_t count) {
+HALFLIGHT_INLINE std::vector<LampSample> lamp_samples(const Facets& facets, std::span<const SampleEnd> ends, std::size_t count,
+                                                      std::uint64_t seed) {
   struct Triangle {
     glm::dvec3 a{0.0}, b{0.0}, c{0.0}, normal{0.0};
     SampleEnd end;
@@ -38,7 +39,7 @@ HALFLIGHT_INLINE std::vector<LampSample> lamp_samples(const Facets& facets, std:
       until.push_back(total);
     }
   }
-  const Sobol4 sequence{1, 0x6c616d70ull};
+  const Sobol4 sequence{seed, 0x6c616d70ull};
   std::vector<LampSample> samples;
   samples.reserve(count);
   for (std::uint32_t k = 0; k < count; ++k) {

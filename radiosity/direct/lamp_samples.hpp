@@ -30,8 +30,10 @@ struct LampSample {
 };
 
 // The first `count` of Sobol's points (1967), mapped to the triangles of the facets laid side by side: each multiple of sixteen of them is
-// even over the area. `ends`: of each facet.
-[[nodiscard]] std::vector<LampSample> lamp_samples(const Facets& facets, std::span<const SampleEnd> ends, std::size_t count);
+// even over the area. `ends`: of each facet. `seed`: another one for each lamp, or what the points of one miss those of all
+// others of its shape would miss, too.
+[[nodiscard]] std::vector<LampSample> lamp_samples(const Facets& facets, std::span<const SampleEnd> ends, std::size_t count,
+                                                   std::uint64_t seed);
 
 // Fine samples of equal area, by the coarse one that each is nearest to. Those of a coarse sample fill its cell (Voronoi 1908), the first
 // ones too.

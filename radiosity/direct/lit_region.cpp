@@ -55,8 +55,11 @@ HALFLIGHT_INLINE LitRegion::LitRegion(const DirectLight& light, const raycast::P
         if (shape.bulge == 0.0 && lift_ == 0.0) { leave_out_hidden(reach, shape.contour); }
       }
     }
+    const glm::dvec3 d = lamp.centre - centre_;
+    reach.may_give = brightest(lamp.exitance) * lamp.area / std::max(glm::dot(d, d), lamp.radius * lamp.radius);
     reaches_.push_back(std::move(reach));
   }
+  std::stable_sort(reaches_.begin(), reaches_.end(), [](const Reach& a, const Reach& b) { return a.may_give > b.may_give; });
 }
 
 HALFLIGHT_INLINE double LitRegion::unhidden(std::size_t k, const glm::dvec3& x, const glm::dvec3& n) {
@@ -98,13 +101,18 @@ HALFLIGHT_INLINE double LitRegion::part_above(Reach& reach, std::size_t p, const
   return std::max(0.0, glm::dot(n, light.vector ? light.vector->at(x) : light.outline.light_vector(x, light_->slack_, facing_)));
 }
 
-HALFLIGHT_INLINE double LitRegion::visible(std::size_t k, const glm::dvec3& x, const glm::dvec3& n) {
+HALFLIGHT_INLINE double LitRegion::visible(std::size_t k, const glm::dvec3& x, const glm::dvec3& n, const Color& others) {
   Reach& reach = reaches_[k];
   if (reach.between == Between::nothing) { return 1.0; }
   const bool all_known = reach.between == Between::bodies;
   const std::size_t shadows = reach.faces.size() + reach.outlines.size();
-  constexpr std::size_t many_shadows = 16;  // take longer to cut out than segments take to tell whether that is needed
-  if (!all_known && (shadows == 0 || (shadows > many_shadows && mostly_open(reach, x, n)))) { return seen_share(reach, x, n); }
+  const std::size_t segments = segments_for(lamp(k), x, n, others);
+  // To cut out this many takes longer than the fewest segments; than segments that tell whether it is needed.
+  constexpr std::size_t some_shadows = 4, many_shadows = 16;
+  if ((!all_known && shadows == 0) || (shadows > some_shadows && segments <= detail::fewest_segments) ||
+      (!all_known && shadows > many_shadows && mostly_open(reach, x, n))) {
+    return seen_share(reach, x, n, segments);
+  }
   const glm::dvec3 above = x + lift_ * n;  // the faces of a mesh that stands in for its own object
   const double all = unhidden(k, above, n);
   if (!(all > 0.0)) { return 0.0; }
@@ -112,7 +120,7 @@ HALFLIGHT_INLINE double LitRegion::visible(std::size_t k, const glm::dvec3& x, c
   const double open = std::min(1.0, cut(reach, above, n, all_known ? nullptr : &left) / all);
   if (all_known || left.empty()) { return open; }
   constexpr double little = 0.25;  // of a lamp: few of the segments that are even over it would tell
-  return open < little ? open * seen_share_of(reach, x, n, left) : seen_share(reach, x, n);
+  return open < little ? open * seen_share_of(reach, x, n, left) : seen_share(reach, x, n, segments);
 }
 
 }  // namespace radiosity

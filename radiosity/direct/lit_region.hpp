@@ -10,7 +10,8 @@
 //                       (closed meshes that are convex within 0.04 % of their diameter are bodies, too: corners of files are rounded).
 //                       Where they are many, those that others hide from all of the region are left out first.
 //   anything else       segments to 256 points of the lamp, the same from each point, so that neighbours agree; they are weighed so
-//                       that only what is hidden is sampled, and they stop at 64 when these agree (fewer where many lamps were joined).
+//                       that only what is hidden is sampled, and they stop at a quarter when these agree. Fewer go to a lamp that can
+//                       add little to the light of the others.
 //                       Right beside a lamp, where few of them face the point or most are far, they go to parts of it of equal light.
 //                       Where faces and bodies hide most of a flat lamp, their shadow is cut out first, and segments go to what is left;
 //                       of other large lamps of which little is seen up to 512 finer ones find the rim of that.
@@ -40,6 +41,8 @@ namespace radiosity {
 
 namespace detail {
 
+inline constexpr std::size_t fewest_segments = 16;  // that are asked for a lamp
+
 // A convex part of a facet, above the horizon of a point that it faces, and the form factor from there to it.
 struct LampPart {
   Polygon contour;
@@ -57,22 +60,24 @@ class LitRegion {
   // all points, when it is the same, else 0. `light` must outlive this. Not for several threads at once.
   LitRegion(const DirectLight& light, const raycast::PatchShape& shape, const glm::dvec3& normal);
 
-  // Lamps that some point may see.
+  // Lamps that some point may see, those that may give most first.
   [[nodiscard]] std::size_t size() const { return reaches_.size(); }
   [[nodiscard]] const DirectLight::Lamp& lamp(std::size_t k) const { return light_->lamps_[reaches_[k].lamp]; }
-  // Of one of them, with what stands between, from the point x of the region with unit normal n.
-  [[nodiscard]] double form_factor(std::size_t k, const glm::dvec3& x, const glm::dvec3& n) {
-    return reaches_[k].between == Between::nothing ? unhidden(k, x, n) : unhidden(k, x, n) * visible(k, x, n);
+  // Of one of them, with what stands between, from the point x of the region with unit normal n. `others` is irradiance that the point is
+  // known to have from elsewhere: the less the lamp can add to that, the fewer segments are asked.
+  [[nodiscard]] double form_factor(std::size_t k, const glm::dvec3& x, const glm::dvec3& n, const Color& others = Color{0.0}) {
+    const double seen = visible(k, x, n, others);
+    return seen > 0.0 ? seen * unhidden(k, x, n) : 0.0;
   }
   // The same in two factors: the form factor if nothing stood between, and the share of it that is not hidden. The second is what takes
   // time.
   [[nodiscard]] double unhidden(std::size_t k, const glm::dvec3& x, const glm::dvec3& n);
-  [[nodiscard]] double visible(std::size_t k, const glm::dvec3& x, const glm::dvec3& n);
+  [[nodiscard]] double visible(std::size_t k, const glm::dvec3& x, const glm::dvec3& n, const Color& others = Color{0.0});
   [[nodiscard]] bool may_be_hidden(std::size_t k) const { return reaches_[k].between != Between::nothing; }
   // From all lamps, W/m2.
   [[nodiscard]] Color irradiance(const glm::dvec3& x, const glm::dvec3& n) {
     Color sum{0.0};
-    for (std::size_t k = 0; k < size(); ++k) { sum += lamp(k).exitance * form_factor(k, x, n); }
+    for (std::size_t k = 0; k < size(); ++k) { sum += lamp(k).exitance * form_factor(k, x, n, sum); }
     return sum;
   }
   [[nodiscard]] std::uint64_t rays() const { return rays_; }
@@ -91,6 +96,7 @@ class LitRegion {
   };
   struct Reach {
     std::uint32_t lamp = 0;
+    double may_give = 0.0;  // to the middle of the region, about
     Between between = Between::nothing;
     raycast::OccluderList list;
     std::vector<Blocker> faces;  // these and outlines are all that may stand between, if it is bodies
@@ -128,7 +134,10 @@ class LitRegion {
     std::uint32_t seen = 0;
   };
   [[nodiscard]] Asked16 ask16(Reach& reach, const glm::dvec3& x, const glm::dvec3& n, std::span<const LampSample> samples);
-  [[nodiscard]] double seen_share(Reach& reach, const glm::dvec3& x, const glm::dvec3& n);
+  [[nodiscard]] double seen_share(Reach& reach, const glm::dvec3& x, const glm::dvec3& n, std::size_t most);
+  // How many segments are to tell what is seen of the lamp.
+  [[nodiscard]] static std::size_t segments_for(const DirectLight::Lamp& lamp, const glm::dvec3& x, const glm::dvec3& n,
+                                                const Color& others);
   // Do sixteen of the segments say that most of the lamp is seen?
   [[nodiscard]] bool mostly_open(Reach& reach, const glm::dvec3& x, const glm::dvec3& n);
   // Is x so near to the lamp, beside the distance of its samples, that these do not tell what it sees of it? Then what they carry in the

@@ -89,14 +89,33 @@ HALFLIGHT_INLINE bool LitRegion::mostly_open(Reach& reach, const glm::dvec3& x, 
   return seen > 0.5 * all;
 }
 
-HALFLIGHT_INLINE double LitRegion::seen_share(Reach& reach, const glm::dvec3& x, const glm::dvec3& n) {
+// n segments know the share that is seen to some n^-3/4: with so many, a lamp that gives a part of the light is known to the same error of
+// all of it as one that gives it all, or to less. What it gives need not be known well: a flat one shows its area by the cosine, other ones
+// a quarter of theirs, as convex bodies do in the mean (Cauchy 1832).
+HALFLIGHT_INLINE std::size_t LitRegion::segments_for(const DirectLight::Lamp& lamp, const glm::dvec3& x, const glm::dvec3& n,
+                                                     const Color& others) {
+  const std::size_t all = lamp.samples.size();
+  const glm::dvec3 d = lamp.centre - x;
+  const double r2 = glm::dot(d, d), r = std::sqrt(r2);
+  if (is_black(others) || r < 2.0 * lamp.radius) { return all; }
+  const double falls = std::min(1.0, (glm::dot(n, d) + lamp.radius) / r);
+  const double shown = lamp.flat ? std::abs(glm::dot(lamp.facets.facets[0].normal, d)) / r : 0.25;
+  const Color own = lamp.exitance * (std::max(0.0, falls) * shown * lamp.area / (std::numbers::pi * r2));
+  double part = 0.0;
+  for (int c = 0; c < 3; ++c) { part = std::max(part, own[c] > 0.0 ? own[c] / (own[c] + others[c]) : 0.0); }
+  const std::size_t wanted = std::bit_ceil(static_cast<std::size_t>(std::ceil(part * static_cast<double>(all))));
+  return std::clamp(wanted, std::min(detail::fewest_segments, all), all);
+}
+
+// Of `most` of the samples, a multiple of sixteen, or of more until enough of them face the point.
+HALFLIGHT_INLINE double LitRegion::seen_share(Reach& reach, const glm::dvec3& x, const glm::dvec3& n, std::size_t most) {
   const DirectLight::Lamp& lamp = light_->lamps_[reach.lamp];
   weight_.clear();
   seen_.clear();
   double all = 0.0;
   double seen = 0.0;
   std::size_t carrying = 0;
-  for (std::size_t first = 0; first < lamp.samples.size(); first += 16) {
+  for (std::size_t first = 0; first < lamp.samples.size() && (first < most || carrying < detail::least_carrying); first += 16) {
     const Asked16 found = ask16(reach, x, n, std::span{lamp.samples}.subspan(first, 16));
     for (unsigned k = 0; k < 16; ++k) {
       weight_.push_back(found.weight[k]);
@@ -105,7 +124,7 @@ HALFLIGHT_INLINE double LitRegion::seen_share(Reach& reach, const glm::dvec3& x,
       carrying += found.weight[k] > 0.0 ? 1 : 0;
       if (seen_.back() != 0) { seen += found.weight[k]; }
     }
-    const std::size_t asked = first + 16, quarter = lamp.samples.size() / 4;
+    const std::size_t asked = first + 16, quarter = most / 4;
     if (asked == std::max<std::size_t>(16, quarter) && too_near(lamp, x, n, all / static_cast<double>(asked))) {
       return seen_share_of_parts(reach, x, n);
     }
@@ -113,7 +132,7 @@ HALFLIGHT_INLINE double LitRegion::seen_share(Reach& reach, const glm::dvec3& x,
     if (seen == all || (seen == 0.0 && survey(reach).dark)) { return seen > 0.0 ? 1.0 : 0.0; }
   }
   if (carrying < detail::least_carrying) { return seen_share_of_parts(reach, x, n); }
-  if (!lamp.fine.empty() && seen < all) { refine(reach, x, n, all, seen); }
+  if (!lamp.fine.empty() && most == lamp.samples.size() && seen < all) { refine(reach, x, n, all, seen); }
   return all > 0.0 ? seen / all : 0.0;
 }
 
