@@ -225,12 +225,13 @@ struct RowEstimate {
 
 }  // namespace detail
 
-HALFLIGHT_INLINE std::vector<double> RayLinks::row_sums(const DiscreteScene& scene, const Links& made, const std::vector<double>& computed,
-                                                        const std::vector<double>& of_lamps, double error_of_lamps) const {
+HALFLIGHT_INLINE std::vector<double> RayLinks::row_sums(const DiscreteScene& scene, const Transport& transport, const Links& made,
+                                                        const std::vector<double>& computed, const std::vector<double>& of_lamps,
+                                                        double error_of_lamps) const {
   constexpr double least = 1e-3;  // under a lamp that touches a surface: no scale makes a row 0
   const std::vector<double>& area = scene.exposure.area;
   const auto left = [&](std::size_t i) {
-    return scene.loses_nothing(i) ? std::max(least, 1.0 - of_lamps[i]) : computed[i] * std::max(0.0, 1.0 - of_lamps[i]);
+    return transport.closed(i) ? std::max(least, 1.0 - of_lamps[i]) : computed[i] * std::max(0.0, 1.0 - of_lamps[i]);
   };
   struct Means {
     double computed = 0.0, of_lamps = 0.0, left = 0.0;
@@ -257,7 +258,7 @@ HALFLIGHT_INLINE std::vector<double> RayLinks::row_sums(const DiscreteScene& sce
     detail::RowEstimate row{means[c].computed, variance[c]};
     row.improve(share[c], visibility_variance(share[c], density[c] * area[c]));
     const double off = relative * means[c].of_lamps;
-    if (scene.loses_nothing(i)) { row.improve(1.0 - means[c].of_lamps, off * off); }
+    if (transport.closed(i)) { row.improve(1.0 - means[c].of_lamps, off * off); }
     rows[i] = left(i) * std::max(0.0, row.value) / means[c].left;
   }
   return rows;

@@ -24,6 +24,7 @@
 #include <radiosity/rays/stored_rays.hpp>
 #include <radiosity/refinement/discrete_scene.hpp>
 #include <radiosity/scene/material.hpp>
+#include <radiosity/solver/transport.hpp>
 
 namespace radiosity {
 
@@ -39,10 +40,11 @@ struct RayLinks {
   // and of surfaces that lose no light what lamps leave of 1. Each counts by the inverse of its variance: of ground under the sky the few
   // rays that meet a house tell little, and what the sky leaves of 1 is mostly the error of the sky's links, but rays out of the house tell
   // much. Within the node: by what lamps leave of the horizon of each leaf, for a ray that a lamp stops meets nothing else.
-  // `made`: the links, wherever they are now. `error_of_lamps`: expected RMS error of the row sums of the links of lamps, taken to be the
-  // same part of each.
-  [[nodiscard]] std::vector<double> row_sums(const DiscreteScene& scene, const Links& made, const std::vector<double>& computed,
-                                             const std::vector<double>& of_lamps, double error_of_lamps) const;
+  // `transport` knows which surfaces lose none; `made`: the links, wherever they are now. `error_of_lamps`: expected RMS error of the row
+  // sums of the links of lamps, taken to be the same part of each.
+  [[nodiscard]] std::vector<double> row_sums(const DiscreteScene& scene, const Transport& transport, const Links& made,
+                                             const std::vector<double>& computed, const std::vector<double>& of_lamps,
+                                             double error_of_lamps) const;
   // What the noise of the rays adds to the squared L2 error of a solution. The mean of what arrives at a node is known, by its own rays;
   // which of the others it comes from is not. `made`: the links, wherever they are now.
   [[nodiscard]] double noise(const DiscreteScene& scene, const Links& made, const std::vector<Color>& radiosity) const;

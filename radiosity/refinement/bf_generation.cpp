@@ -84,7 +84,7 @@ HALFLIGHT_INLINE BfErrors estimate_errors(BfState& state, double leaf_part) {
   Links links(scene.budget.arrays);  // packed, for the operator
   links.reserve(state.links.size());
   for (const MeasuredLink& l : state.links) { links.push_back(l.link); }
-  Transport transport{scene.hierarchy, links, scene.exposure, scene.threads, closed_nodes(scene)};
+  Transport transport{scene.hierarchy, links, scene.exposure, scene.threads, closed_nodes(scene, links)};
   if (scene.any_closed()) { (void)transport.close(10.0, 1e-3); }
   const ColorSolution light = solve_channels(transport, transport.area(), surface_light(scene), {Solver::conjugate_gradients, 1e-3, 40});
   LeafErrors leaves = estimate_leaf_errors(scene, links, light.radiosity);

@@ -44,7 +44,7 @@ HALFLIGHT_INLINE std::vector<double> add_ray_links(Run& run, double error_of_lam
   const std::vector<double> computed = run.transport->row_sums();
   std::vector<double> of_rays;
   for (std::size_t i = 0; i < computed.size(); ++i) { of_rays.push_back(computed[i] - of_lamps[i]); }
-  const std::vector<double> wanted = made.row_sums(run.scene, run.solution.ray_links, of_rays, of_lamps, error_of_lamps);
+  const std::vector<double> wanted = made.row_sums(run.scene, *run.transport, run.solution.ray_links, of_rays, of_lamps, error_of_lamps);
   run.solution.audit.ray_correction = run.transport->scale_sampled(wanted, closed ? 16.0 : 4.0);
   return computed;
 }
@@ -54,7 +54,8 @@ HALFLIGHT_INLINE void make_transport(Run& run) {
   const DiscreteScene& scene = run.scene;
   Solution& solution = run.solution;
   Audit& audit = run.solution.audit;
-  Transport& transport = run.transport.emplace(scene.hierarchy, solution.links, scene.exposure, scene.threads, closed_nodes(scene));
+  ClosedNodes closed = closed_nodes(scene, solution.links);
+  Transport& transport = run.transport.emplace(scene.hierarchy, solution.links, scene.exposure, scene.threads, std::move(closed));
   const std::vector<double>& area = scene.exposure.area;
   double exposed = 0.0;
   for (std::size_t i = 0; i < scene.hierarchy.size(); ++i) { exposed += scene.hierarchy[i].parent == no_node ? area[i] : 0.0; }

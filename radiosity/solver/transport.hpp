@@ -47,6 +47,9 @@ class Transport {
   // The references must outlive the operator. Arranges the links (link_schedule.hpp). `closed`: what close() is to bring about.
   Transport(const Hierarchy& hierarchy, Links& links, const Exposure& exposure, unsigned threads = 1, ClosedNodes closed = {});
 
+  // Do the form factors of the node sum to 1?
+  [[nodiscard]] bool closed(std::size_t i) const { return closed_.empty() || closed_[i]; }
+
   // Adds links that were sampled, between patches, once. They must outlive the operator, which arranges them.
   void add_sampled(Links& links);
   // Makes their row sums those of `rows`, one a node, read at the leaves, within 1e-6 (balance.hpp), with D between 1 / most and most.
@@ -122,8 +125,6 @@ class Transport {
   void arrive_at(std::uint32_t i, const EndShape& shape, double power);
 
   void keep_lamps(std::vector<bool> lamps);
-  [[nodiscard]] bool closed(std::size_t i) const { return closed_.empty() || closed_[i]; }
-
   struct Part {
     Part(const Hierarchy& hierarchy, std::span<Link> links);
 
