@@ -76,6 +76,15 @@ inline std::vector<Wall> walls_beside(Working& mesh, const Topology& topology, c
   return walls;
 }
 
+// Is there anything that a lamp at this face would light on the side that `normal` points to, beyond `height`?
+inline bool any_above(const Working& mesh, std::uint32_t face, const glm::dvec3& normal, double height) {
+  const double at = glm::dot(normal, mesh.positions[mesh.faces[face].corners[0]]) + height;
+  return std::any_of(mesh.faces.begin(), mesh.faces.end(), [&](const auto& other) {
+    return std::any_of(other.corners.begin(), other.corners.end(),
+                       [&](std::uint32_t v) { return glm::dot(normal, mesh.positions[v]) > at; });
+  });
+}
+
 // The face that is close before the middle of a lamp, while behind it the way is free. `side`: 1; -1: close behind it, and free before it.
 inline std::optional<std::uint32_t> face_before(Working& mesh, const raycast::Bvh& bvh, const std::vector<bool>& lamp, std::uint32_t face,
                                                 double side) {
@@ -99,7 +108,7 @@ inline std::optional<std::uint32_t> face_before(Working& mesh, const raycast::Bv
     }
     return blocked;
   }));
-  return blocked ? std::nullopt : before;
+  return blocked || !before || !any_above(mesh, face, -normal, free * size) ? std::nullopt : before;
 }
 
 }  // namespace detail

@@ -27,7 +27,8 @@ struct FlushFace {
 // Finds all of them, where the lamp lies on the other face within four tolerances of welding, which is as far as the rounding of six digits
 // may take a corner and a plane apart, or within a thousandth of its own size behind it or with its front to it. Moves the vertices of the
 // lamp, as far as no other surface has them, into the plane of the nearest. A lamp that lies on nothing, but has a parallel face before or
-// behind it that is at most a fiftieth of its size away, with the other way free for ten times as far, is found with that face.
+// behind it that is at most a fiftieth of its size away, with the other way free for ten times as far, and something to light
+// beyond, is found with that face.
 [[nodiscard]] std::vector<FlushFace> lay_lamps(Working& mesh, const Topology& topology, std::span<const Material> materials);
 
 // Lamps more than half of which lies on something shine away from it, on that side alone. Where they lie between two sides, as of a wall

@@ -78,6 +78,13 @@ HALFLIGHT_INLINE bool Shells::is_furnished(const Component& shell) const {
   return furnished;
 }
 
+HALFLIGHT_INLINE bool Shells::is_bare_room(const Component& shell) const {
+  const raycast::Box box = shell.box.grown(mesh_.tolerance);
+  const auto within = [&](const Component& other) { return (box.contains(other.box.lo) && box.contains(other.box.hi)) || shines(other); };
+  const bool may_be = options_.eyes.empty() && !shines(shell) && (shell.volume < 0.0 || options_.sides_unknown);
+  return may_be && has_walls(shell) && std::all_of(components_.begin(), components_.end(), within);
+}
+
 HALFLIGHT_INLINE Component* Shells::pierced_by(std::span<const Place> places, const Component& lamp) {
   Component* best = nullptr;
   for (Component& shell : components_) {
@@ -85,7 +92,7 @@ HALFLIGHT_INLINE Component* Shells::pierced_by(std::span<const Place> places, co
     if (best != nullptr && std::abs(shell.volume) >= std::abs(best->volume)) { continue; }
     const auto held = static_cast<std::size_t>(std::count_if(
         places.begin(), places.end(), [&](const Place& place) { return holds(shell, place.front) || holds(shell, place.behind); }));
-    if (held > 0 && held < places.size() && is_furnished(shell)) { best = &shell; }
+    if (held > 0 && held < places.size() && (is_furnished(shell) || is_bare_room(shell))) { best = &shell; }
   }
   return best;
 }

@@ -96,7 +96,10 @@ class Shells {
   // Does the shell hold things that look the other way, as those of a room do, and that leave half of it free, so that it is not the outer
   // side of walls?
   [[nodiscard]] bool is_furnished(const Component& shell) const;
-  // The innermost furnished shell through whose walls a lamp reaches, such as a bulb that is sunk into the ceiling.
+  // May the shell be a room in which nothing stands? It has walls, does not look outwards as far as the file tells, nothing but lamps
+  // reaches out of it, and no eye tells another thing.
+  [[nodiscard]] bool is_bare_room(const Component& shell) const;
+  // The innermost furnished or bare room through whose walls a lamp reaches, such as a bulb that is sunk into the ceiling.
   [[nodiscard]] Component* pierced_by(std::span<const Place> places, const Component& lamp);
   // Is a shell that shines on the inside, at least in part, a room? One that looks outwards is when it shines in part and is furnished. One
   // that looks inwards is when something is in it, when it is alone, or when the innermost shell around it looks outwards and is filled by

@@ -86,6 +86,42 @@ TEST_CASE("intake: a lamp that hangs close under a ceiling shines into the room,
   }
 }
 
+TEST_CASE("intake: a lamp close above a table is not turned away from it where there is nothing else to light") {
+  for (const bool in_room : {false, true}) {
+    Soup soup;
+    soup.names = {"table", "lamp", "room"};
+    soup.polygon({{1, 1, 1}, {2, 1, 1}, {2, 2, 1}, {1, 2, 1}});
+    soup.polygon({{1.2, 1.2, 1.005}, {1.2, 1.8, 1.005}, {1.8, 1.8, 1.005}, {1.8, 1.2, 1.005}}, 1);  // looks down
+    if (in_room) { soup::add_box(soup, {0, 0, 0}, {4, 4, 3}, 1, true); }
+    CHECK(count_of(soup.take_in(), ChangeKind::lamp_turned) == (in_room ? 1 : 0));
+  }
+}
+
+TEST_CASE("intake: a bare room whose lamp is sunk into its ceiling or a wall is seen from inside") {
+  const unsigned seed = std::random_device{}();
+  INFO("seed " << seed);
+  RandomRooms random(seed);
+  for (int round = 0; round < 16; ++round) {
+    const bool inwards = round % 2 == 0, sides_told = round % 4 < 2, of_ceiling = round % 8 < 4;
+    const glm::dvec3 size{number_in(random, 2.0, 6.0), number_in(random, 2.0, 6.0), number_in(random, 2.0, 3.0)};
+    Soup soup;
+    soup.names = {"room", "lamp"};
+    soup::add_box(soup, {0, 0, 0}, size, 1, inwards);
+    glm::dvec3 middle = 0.5 * size;
+    const int axis = of_ceiling ? 2 : 0;
+    middle[axis] = size[axis] + number_in(random, -0.08, 0.08);  // of a lamp of .2 m
+    soup::add_box(soup, middle - 0.1, middle + 0.1, 1, false, 1);
+    radiosity::IntakeOptions options;
+    options.sides_unknown = !sides_told;
+    const radiosity::Intake taken = soup.take_in(options);
+    INFO("round " << round);
+    const bool room = inwards || !sides_told;  // what is told to look outwards stays a solid, with a lamp on it
+    CHECK(taken.rooms.size() == (room ? 1 : 0));
+    CHECK(count_of(taken, ChangeKind::inside_out) == 0);
+    CHECK(count_of(taken, ChangeKind::room) == (room && !inwards ? 1 : 0));
+  }
+}
+
 TEST_CASE("intake: a lamp on a wall without a thickness shines to its own side") {
   for (const bool down : {false, true}) {
     Soup soup;
