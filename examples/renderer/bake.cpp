@@ -105,7 +105,9 @@ int main(int count, char** arguments) {
     return 1;
   }
   const radiosity::Baked& baked = *outcome.baked;
-  std::printf("# error %.1f %% of the reflected light\n", 100.0 * baked.audit.surface_error->relative_l2);
+  if (const auto& error = baked.audit.surface_error) {
+    std::printf("# error %.1f %% of the reflected light\n", 100.0 * error->relative_l2);
+  }
   for (const radiosity::Change& change : baked.changes) { std::printf("# %s\n", radiosity::sentence(change).c_str()); }
   for (std::size_t v = 0; v < baked.colors.vertex.size(); ++v) {
     const radiosity::Color& b = baked.colors.vertex[v];

@@ -33,7 +33,11 @@ inline BakeOutcome bake_within_memory(const PolygonView& mesh, std::span<const M
   for (const Material& material : materials) {
     if (auto sentence = fault(material)) { sentences.push_back(std::move(*sentence)); }
   }
+  if (materials.empty()) { sentences.emplace_back("there are no materials"); }
   if (!sentences.empty()) { return refused(std::move(sentences)); }
+  if (!(options.intake.weld >= 0.0 && options.intake.weld <= largest_weld)) {
+    return refused({"weld is " + std::to_string(options.intake.weld) + "; it lies in [0, 0.01]"}, Failure::Kind::invalid_options);
+  }
   Scene scene{{materials.begin(), materials.end()}, {}};
   Intake intake = take_in(mesh, materials, options.intake);
   if (intake.objects.empty()) {
@@ -76,6 +80,10 @@ HALFLIGHT_INLINE BakeOutcome bake(const MeshView& mesh, const BakeOptions& optio
     return baking::detail::refused({mesh.stride < 3
                                         ? "the stride of the positions is " + std::to_string(mesh.stride) + "; a vertex has three numbers"
                                         : "there are " + std::to_string(mesh.indices.size()) + " indices; a triangle has three"});
+  }
+  if (const std::size_t rest = mesh.positions.size() % mesh.stride; rest == 1 || rest == 2) {
+    return baking::detail::refused({"there are " + std::to_string(mesh.positions.size()) + " numbers of positions, " +
+                                    std::to_string(mesh.stride) + " a vertex; the last vertex lacks some of its three"});
   }
   if (!mesh.material.empty() && mesh.material.size() != triangles) {
     return baking::detail::refused(

@@ -10,7 +10,8 @@
 //
 // Units: positions in metres; only the ratios of lengths matter to the light. Reflectances and colours are linear, three channels, no sRGB.
 // Emission and radiosity are exitances in W/m2, over all directions of the side that is seen; the radiance of a surface is B / pi, the
-// irradiance that it receives is (B - E) / reflectance. Counter-clockwise corners are seen from the front. Which side is up does not
+// irradiance that it receives is (B - E) / reflectance. Counter-clockwise corners are seen from the front; what then shows its back to
+// all light, or shines into a surface close before it, is turned (intake.hpp), and Baked::changes says so. Which side is up does not
 // matter.
 //
 // A run ends early with the best that it has when Control::cancel becomes true, after Options::time (BF-refinement), or for lack of

@@ -34,6 +34,7 @@ struct halflight_job {
   radiosity::BakeOptions options;
   halflight_progress progress = nullptr;
   void* user = nullptr;
+  bool running = false;  // halflight_run has not returned
 
   std::optional<radiosity::Baked> baked;
   std::optional<radiosity::Lightmap> lightmap;
@@ -48,6 +49,13 @@ using radiosity::BakeOptions;
 halflight_status refuse(halflight_job* job, std::string message, halflight_status status = HALFLIGHT_INVALID) {
   if (job != nullptr) { job->message = std::move(message); }
   return status;
+}
+
+// From within its callback a job cannot be changed, run or destroyed.
+bool is_running(halflight_job* job) {
+  if (job == nullptr || !job->running) { return false; }
+  job->message = "the job is running: it cannot be changed or run again from its progress callback";
+  return true;
 }
 
 // An option: what it may be, and where it goes.
@@ -74,7 +82,7 @@ constexpr std::array<NumberOption, 11> number_options{{
     {"threads", 0.0, 4096.0, true, [](BakeOptions& o, double v) { o.solve.threads = static_cast<unsigned>(v); }},
     {"seed", 0.0, exact, true, [](BakeOptions& o, double v) { o.solve.seed = static_cast<std::uint64_t>(v); }},
     {"memory", 0.0, exact, true, [](BakeOptions& o, double v) { o.solve.memory = static_cast<std::uint64_t>(v); }},
-    {"weld", 0.0, 0.01, false, [](BakeOptions& o, double v) { o.intake.weld = v; }},
+    {"weld", 0.0, radiosity::largest_weld, false, [](BakeOptions& o, double v) { o.intake.weld = v; }},
     {"two_sided", 0.0, 1.0, true, [](BakeOptions& o, double v) { o.intake.two_sided = v != 0.0; }},
     {"merge", 0.0, 1.0, true, [](BakeOptions& o, double v) { o.intake.merge = v != 0.0; }},
 }};
@@ -158,9 +166,12 @@ const char* halflight_version(void) { return HALFLIGHT_C_VERSION; }
 
 halflight_job* halflight_create(void) { return new (std::nothrow) halflight_job; }
 
-void halflight_destroy(halflight_job* job) { delete job; }
+void halflight_destroy(halflight_job* job) {
+  if (job == nullptr || !job->running) { delete job; }
+}
 
 halflight_status halflight_set_positions(halflight_job* job, const float* xyz, size_t count, size_t stride) {
+  if (is_running(job)) { return HALFLIGHT_INVALID; }
   if (job == nullptr || (xyz == nullptr && count > 0)) { return refuse(job, "there are no positions"); }
   if (stride < 3 || stride > 1'000'000) {
     return refuse(job, "the stride of the positions is " + std::to_string(stride) + "; a vertex has three numbers");
@@ -172,6 +183,7 @@ halflight_status halflight_set_positions(halflight_job* job, const float* xyz, s
 }
 
 halflight_status halflight_set_triangles(halflight_job* job, const uint32_t* indices, size_t triangles, const uint32_t* material) {
+  if (is_running(job)) { return HALFLIGHT_INVALID; }
   if (job == nullptr || (indices == nullptr && triangles > 0)) { return refuse(job, "there are no indices"); }
   if (triangles > std::numeric_limits<std::uint32_t>::max() / 3) { return refuse(job, "there are more triangles than can be counted"); }
   job->indices = {indices, 3 * triangles};
@@ -180,6 +192,7 @@ halflight_status halflight_set_triangles(halflight_job* job, const uint32_t* ind
 }
 
 int halflight_add_material(halflight_job* job, const char* name, const double reflectance[3], const double emission[3]) {
+  if (is_running(job)) { return -HALFLIGHT_INVALID; }
   if (job == nullptr || reflectance == nullptr) { return -refuse(job, "a material needs a reflectance"); }
   radiosity::Material material{
       name == nullptr ? "material" : name, {reflectance[0], reflectance[1], reflectance[2]}, radiosity::Color(0.0)};
@@ -190,6 +203,7 @@ int halflight_add_material(halflight_job* job, const char* name, const double re
 }
 
 halflight_status halflight_set_number(halflight_job* job, const char* option, double value) {
+  if (is_running(job)) { return HALFLIGHT_INVALID; }
   if (job == nullptr || option == nullptr) { return refuse(job, "there is no option without a name"); }
   for (const NumberOption& known : number_options) {
     if (known.name != option) { continue; }
@@ -203,14 +217,14 @@ halflight_status halflight_set_number(halflight_job* job, const char* option, do
 }
 
 halflight_status halflight_set_progress(halflight_job* job, halflight_progress callback, void* user) {
-  if (job == nullptr) { return HALFLIGHT_INVALID; }
+  if (job == nullptr || is_running(job)) { return HALFLIGHT_INVALID; }
   job->progress = callback;
   job->user = user;
   return HALFLIGHT_OK;
 }
 
 halflight_status halflight_run(halflight_job* job) {
-  if (job == nullptr) { return HALFLIGHT_INVALID; }
+  if (job == nullptr || is_running(job)) { return HALFLIGHT_INVALID; }
   std::atomic<bool> stop{false};
   radiosity::Control control;
   control.cancel = &stop;
@@ -222,8 +236,10 @@ halflight_status halflight_run(halflight_job* job) {
   job->baked.reset();
   job->lightmap.reset();
   job->changes.clear();
+  job->running = true;
   radiosity::BakeOutcome outcome =
       radiosity::bake({job->positions, job->indices, job->materials, job->material, job->stride}, job->options, control);
+  job->running = false;
   if (!outcome.baked) {
     std::string message;
     for (const std::string& sentence : outcome.failure.sentences) { message += (message.empty() ? "" : "\n") + sentence; }
@@ -236,6 +252,9 @@ halflight_status halflight_run(halflight_job* job) {
   }
   job->baked = std::move(outcome.baked);
   for (const radiosity::Change& change : job->baked->changes) { job->changes.push_back(radiosity::sentence(change)); }
+  const radiosity::Audit& audit = job->baked->audit;
+  job->changes.insert(job->changes.end(), audit.warnings.begin(), audit.warnings.end());
+  if (!audit.shortage.empty()) { job->changes.push_back(audit.shortage); }
   return HALFLIGHT_OK;
 }
 
@@ -262,6 +281,7 @@ halflight_status halflight_read(halflight_job* job, int result, float* out, size
 halflight_status halflight_at(const halflight_job* job, size_t triangle, const float point[3], int back, float rgb[3]) {
   if (job == nullptr || point == nullptr || rgb == nullptr) { return HALFLIGHT_INVALID; }
   if (!job->baked) { return HALFLIGHT_NOT_RUN; }
+  if (!std::all_of(point, point + 3, [](float x) { return std::isfinite(x); })) { return HALFLIGHT_INVALID; }
   const auto color = job->baked->light.radiosity(triangle, {point[0], point[1], point[2]},
                                                  back != 0 ? radiosity::FaceSide::back : radiosity::FaceSide::front);
   if (!color) { return HALFLIGHT_NOTHING; }

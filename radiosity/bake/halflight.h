@@ -68,12 +68,12 @@ HALFLIGHT_API int halflight_add_material(halflight_job* job, const char* name, c
 HALFLIGHT_API halflight_status halflight_set_number(halflight_job* job, const char* option, double value);
 
 /* Called now and then while a job runs, from the thread that runs it; another value than 0 stops the run, which soon ends with
- * the best that it has: see HALFLIGHT_CANCELLED. */
+ * the best that it has: see HALFLIGHT_CANCELLED. It must not use its own job: what would change it is refused, or does nothing. */
 typedef int (*halflight_progress)(void* user, const char* stage, double fraction);
 HALFLIGHT_API halflight_status halflight_set_progress(halflight_job* job, halflight_progress callback, void* user);
 
 HALFLIGHT_API halflight_status halflight_run(halflight_job* job);
-/* What was wrong in the last call that did not return HALFLIGHT_OK; one sentence a line. */
+/* What was wrong in the last call that did not return HALFLIGHT_OK; one sentence a line. halflight_at leaves none. */
 HALFLIGHT_API const char* halflight_message(const halflight_job* job);
 
 /* What can be read of a job that has run, and the numbers of one of them:
@@ -92,7 +92,8 @@ typedef enum halflight_result {
  * more of them, HALFLIGHT_NOTHING where there is no result of this number, HALFLIGHT_NOT_RUN before halflight_run, or of a lightmap before
  * halflight_make_lightmap. */
 HALFLIGHT_API halflight_status halflight_read(halflight_job* job, int result, float* out, size_t count);
-/* The radiosity at a point of a triangle, on its front or its back; HALFLIGHT_NOTHING where it has none. From many threads at once. */
+/* The radiosity at a point of a triangle, on its front or its back; HALFLIGHT_NOTHING where it has none, HALFLIGHT_INVALID when
+ * the point is not finite. From many threads at once. */
 HALFLIGHT_API halflight_status halflight_at(const halflight_job* job, size_t triangle, const float point[3], int back, float rgb[3]);
 
 /* Makes a lightmap, for halflight_read, and tells its size: an atlas with a rectangle for every planar face of the triangles, its texels
@@ -104,7 +105,7 @@ HALFLIGHT_API halflight_status halflight_make_lightmap(halflight_job* job, doubl
  * rays, residual, iterations, converged, interrupted, coarsened (1: stopped or short of memory, with a larger epsilon than asked
  * for), epsilon, without (corners of triangles that were left out). */
 HALFLIGHT_API halflight_status halflight_figure(halflight_job* job, const char* name, double* value);
-/* What was repaired in the triangles, as sentences; null beyond the last one. */
+/* What was repaired in the triangles, what the run warns of, and why it ended early if it did, as sentences; null beyond the last one. */
 HALFLIGHT_API const char* halflight_change(const halflight_job* job, size_t number);
 
 #ifdef __cplusplus

@@ -20,8 +20,8 @@ struct Wording {
 };
 
 inline constexpr std::array<Wording, static_cast<std::size_t>(ChangeKind::merged) + 1> wordings{{
-    {"1 polygon has a corner that is not finite or does not exist: left out",
-     "# polygons have corners that are not finite or do not exist: left out"},
+    {"1 polygon has a corner that is not finite, or a corner or a material that does not exist: left out",
+     "# polygons have corners that are not finite, or corners or materials that do not exist: left out"},
     {"1 polygon has more than 20 000 corners: left out", "# polygons have more than 20 000 corners: left out"},
     {"1 vertex lay on another one, @ beside it: made one", "# vertices lay on others, beside them by up to @: made one"},
     {"1 polygon has no area: left out", "# polygons have no area: left out"},

@@ -10,7 +10,7 @@
 namespace radiosity {
 
 enum class ChangeKind : unsigned char {
-  unusable,     // polygons whose corners do not exist or are not finite: left out
+  unusable,     // polygons whose corners or material do not exist, or with corners that are not finite: left out
   too_long,     // polygons with more than 20 000 corners: left out
   welded,       // vertices that lay within the tolerance of another one: made one; size: the largest distance
   no_area,      // polygons without area: left out

@@ -29,8 +29,11 @@ struct PolygonView {
   [[nodiscard]] std::size_t count() const { return first_corner.empty() ? 0 : first_corner.size() - 1; }
 };
 
+inline constexpr double largest_weld = 0.01;
+
 struct IntakeOptions {
-  // Vertices closer than this are one, and a vertex so close to an edge lies on it; relative to the diagonal of the bounds of all.
+  // Vertices closer than this are one, and a vertex so close to an edge lies on it; relative to the diagonal of the bounds of all. In
+  // [0, largest_weld].
   double weld = 1e-6;
   bool merge = true;       // coplanar neighbours of one material
   bool two_sided = false;  // all surfaces that enclose nothing

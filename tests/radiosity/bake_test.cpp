@@ -5,9 +5,12 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <numbers>
 #include <numeric>
 #include <random>
+#include <span>
+#include <string>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -190,9 +193,16 @@ TEST_CASE("bake: what cannot be solved is refused with a sentence, polygons that
   CHECK(sentences({xyz, with_line, materials, one})[0] == "there are 2 triangles, and materials of 1");
   CHECK(sentences({xyz, line, materials})[0] == "there is no polygon with an area");
   CHECK(sentences({xyz, beyond, materials}).size() == 2);
-  CHECK(sentences({xyz, good, {}})[0] == "there is no polygon with an area");
+  CHECK(sentences({xyz, good, {}})[0] == "there are no materials");
+  CHECK(sentences({xyz, good, materials, std::vector<std::uint32_t>{7}})[1].find("a material that does not exist") != std::string::npos);
+  CHECK(sentences({std::span(xyz).first(11), good, materials})[0].find("the last vertex lacks some of its three") != std::string::npos);
   const std::vector<radiosity::Material> impossible{{"mirror", glm::dvec3(1.5), glm::dvec3(0.0)}};
   CHECK(sentences({xyz, good, impossible}).size() == 1);
+  for (const double weld : {-1.0, 0.5, std::numeric_limits<double>::quiet_NaN()}) {
+    radiosity::BakeOptions options = quick();
+    options.intake.weld = weld;
+    CHECK(radiosity::bake({xyz, good, materials}, options).failure.kind == radiosity::Failure::Kind::invalid_options);
+  }
 
   const radiosity::BakeOutcome outcome = radiosity::bake({xyz, with_line, materials}, quick());
   REQUIRE(outcome.baked);
