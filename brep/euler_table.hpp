@@ -28,11 +28,12 @@ namespace brep {
 struct OperatorForm {
   Operator op;
   std::string_view name;
-  std::array<std::string_view, 2> textbook;  // empty where the textbook has none
+  std::array<std::string_view, 2> textbook;  // words for it that are accepted; empty where the textbook has none
   std::string_view arguments;                // their kinds as letters of handles
   char result;                               // the kind of the result as a letter; 0 when there is none
   int v, e, f;                               // counts afterwards minus before
   std::string_view where;                    // for the help: what must hold of the arguments a and b, or h, or what they are for
+  std::string_view steps = {};               // what does the same in the textbook, where its words alone do less
   bool second = false;                       // the result is the second half of the new edge
 };
 
@@ -94,11 +95,11 @@ using H = HalfedgeId;
 
 inline constexpr std::tuple operator_table{
     OperatorRow(
-        {Operator::make_segment, "make_segment", {"mvfs"}, "", 'h', 2, 1, 1, ""},
+        {Operator::make_segment, "make_segment", {"mvfs"}, "", 'h', 2, 1, 1, "", "mvfs, then mev"},
         [](auto& brep, detail::H, detail::H) { return make_segment(brep); },
         [](auto& brep, const Step& s) { unchecked::kill_segment(brep, s.h); }),
     OperatorRow(
-        {Operator::kill_segment, "kill_segment", {"kvfs"}, "h", 0, -2, -1, -1, "h the only edge of its shell"},
+        {Operator::kill_segment, "kill_segment", {"kvfs"}, "h", 0, -2, -1, -1, "h the only edge of its shell", "kev, then kvfs"},
         [](auto& brep, detail::H h, detail::H) { return kill_segment(brep, h); },
         [](auto& brep, const Step&) { unchecked::make_segment(brep); }),
     OperatorRow(
@@ -118,15 +119,15 @@ inline constexpr std::tuple operator_table{
         [](auto& brep, detail::H h, detail::H) { return join_vertices(brep, h); },
         [](auto& brep, const Step& s) { detail::undo_join_vertices(brep, s); }),
     OperatorRow(
-        {Operator::split_edge, "split_edge", {}, "h", 'h', 1, 1, 0, "the result leaves the new vertex", true},
+        {Operator::split_edge, "split_edge", {}, "h", 'h', 1, 1, 0, "the result leaves the new vertex", {}, true},
         [](auto& brep, detail::H h, detail::H) { return split_edge(brep, h); },
         [](auto& brep, const Step& s) { unchecked::join_vertices(brep, s.h); }),
     OperatorRow(
-        {Operator::bridge, "bridge", {"mekr", "kfmrh"}, "hh", 'h', 0, 1, -1, "a, b on different faces"},
+        {Operator::bridge, "bridge", {"mekr", "kfmrh"}, "hh", 'h', 0, 1, -1, "a, b on different faces", "kfmrh, then mekr"},
         [](auto& brep, detail::H a, detail::H b) { return bridge(brep, a, b); },
         [](auto& brep, const Step& s) { unchecked::cut(brep, s.h); }),
     OperatorRow(
-        {Operator::cut, "cut", {"kemr", "mfkrh"}, "h", 'f', 0, -1, 1, "h with one face on both sides"},
+        {Operator::cut, "cut", {"kemr", "mfkrh"}, "h", 'f', 0, -1, 1, "h with one face on both sides", "kemr, then mfkrh"},
         [](auto& brep, detail::H h, detail::H) { return cut(brep, h); }, [](auto& brep, const Step& s) { detail::undo_cut(brep, s); }),
     OperatorRow(
         {Operator::weld, "weld", {}, "hh", 'h', -1, 1, 0, "a, b leave different vertices"},

@@ -194,6 +194,7 @@ ExitCode run(const MeshOptions& options) {
 
 Command mesh_command() {
   const auto options = std::make_shared<MeshOptions>();
+  options->model.lamps_wanted = false;
   Argument json = text("--json", "[FILE]", options->json, "the numbers as JSON: into FILE, or in place of the text");
   json.values = Argument::Values::optional;
   return {"mesh", "the polygons of each object: counts, genus, area, volume, and a mesh file",

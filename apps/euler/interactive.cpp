@@ -46,7 +46,7 @@ std::string help() {
   for (const brep::OperatorForm& row : brep::operator_forms) {
     std::string call = (row.result == 'h' ? "h = " : "") + std::string(row.name);
     call += row.arguments.size() == 2 ? " a b" : row.arguments.empty() ? "" : row.result == 'h' ? " a" : " h";
-    const std::string textbook = joined(row.textbook);
+    const std::string textbook = row.steps.empty() ? joined(row.textbook) : std::string(row.steps);
     std::array<char, 120> line{};
     std::snprintf(line.data(), line.size(), "%-12s %-23s %-37s %s", out.empty() ? "operators" : "", call.c_str(),
                   std::string(row.where).c_str(), textbook.c_str());

@@ -137,7 +137,7 @@ std::string change(const char* letter, int by) {
 
 std::string told(const brep::Statement& statement, const brep::Outcome& outcome, const Records& before, const Records& after) {
   if (outcome.kind != brep::Outcome::Kind::done) { return {}; }  // the sentence says it
-  if (statement.command == brep::Command::undo) { return "The last step is taken back, by its inverse."; }
+  if (statement.command == brep::Command::undo) { return "The last step is taken back."; }
   if (statement.command == brep::Command::redo) { return "The step that was taken back is done again."; }
   if (statement.command == brep::Command::raw) { return "One field of one record is overwritten, which no operator would do."; }
   const brep::OperatorForm& form = brep::form(statement.op);
@@ -145,11 +145,9 @@ std::string told(const brep::Statement& statement, const brep::Outcome& outcome,
   for (const std::string& text : {change("v", form.v), change("e", form.e), change("f", form.f)}) {
     if (!text.empty()) { counts.push_back(text); }
   }
-  std::string textbook;
-  for (const std::string_view word : form.textbook) {
-    if (!word.empty()) { textbook += (textbook.empty() ? ", in textbooks " : " or ") + std::string(word); }
-  }
-  std::string out = std::string(form.name) + textbook + (counts.empty() ? "" : ": " + listed(counts)) + ".";
+  const std::string textbook(form.steps.empty() ? form.textbook[0] : form.steps);
+  std::string out =
+      std::string(form.name) + (textbook.empty() ? "" : ", in textbooks " + textbook) + (counts.empty() ? "" : ": " + listed(counts)) + ".";
   const std::vector<std::string> fresh = added(before, after), gone = added(after, before);
   if (!fresh.empty()) { out += " New: " + listed(fresh) + "."; }
   if (!gone.empty()) { out += " Gone: " + listed(gone) + "."; }

@@ -41,7 +41,7 @@ LightViews::LightViews(const radiosity::Scene& scene) : objects_(radiosity::plac
     const double across = objects_.object(surface.object).bounds().diameter();
     power[surface.object] = std::max(power[surface.object], exitance(surface) * across * across);
   }
-  constexpr std::size_t most_points = 16;
+  constexpr std::size_t most_points = 64;
   for (std::size_t i = 0; i < std::min(most_points, shining.size()); ++i) {
     const radiosity::InputSurface& surface = *shining[i * shining.size() / std::min(most_points, shining.size())];
     const raycast::PlacedObject& object = objects_.object(surface.object);

@@ -44,7 +44,7 @@ class SceneMaker {
     place(to_metres(options_.up.value_or(up), options_.metres));
     sides_unknown_ = !model_.tells_sides;
     if (!part(faults)) { return std::nullopt; }
-    if (!shines() && !add_studio(faults)) { return std::nullopt; }
+    if (options_.lamps_wanted && !shines() && !add_studio(faults)) { return std::nullopt; }
     look_for_light();
     note(std::string(1, "xyz"[static_cast<std::size_t>(options_.up.value_or(up))]) + " is taken as up (--up), one unit as " +
          radiosity::length_text(options_.metres) + " (--units)");
@@ -240,7 +240,7 @@ class SceneMaker {
       if (camera) { note("from outside little is seen of its light: the camera stands in the room of a lamp"); }
     } else {
       note((dark.size() == 1 ? "camera " + dark[0] + " sees" : counted(dark.size(), "camera") + " see") +
-           " next to nothing that a lamp shines on" + (camera ? "; --camera inside stands in the room of a lamp" : ""));
+           " next to nothing that a lamp shines on" + (camera && !options_.camera ? "; --camera inside stands in the room of a lamp" : ""));
     }
     if (camera) { file_.cameras.push_back(std::move(*camera)); }
   }

@@ -37,6 +37,7 @@ struct ModelOptions {
   double metres = 1.0;       // one unit of the file
   std::optional<UpAxis> up;  // default: the format's
   bool merge = true;
+  bool lamps_wanted = true;                 // a model in which nothing shines gets a lamp
   std::optional<radiosity::Camera> camera;  // before those of the file, in the scene's coordinates
 
   // The options as text, such that other options have another text.

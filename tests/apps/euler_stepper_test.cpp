@@ -108,11 +108,11 @@ TEST_CASE("stepper: no name covers another in random solids of up to 24 edges") 
 TEST_CASE("stepper: every step is told in words, with the textbook's name") {
   const Story story = told_story("h0 = make_segment\nmev h1 h1\nmef h3 h0\nrefused split_face h0 h1\nundo\nredo\nkef h4\n");
   const std::vector<std::string> expected = {
-      "make_segment, in textbooks mvfs: v + 2, e + 1 and f + 1. New: the edge h0/h1, v0, v1 and f0.",
+      "make_segment, in textbooks mvfs, then mev: v + 2, e + 1 and f + 1. New: the edge h0/h1, v0, v1 and f0.",
       "split_vertex, in textbooks mev: v + 1 and e + 1. New: the edge h2/h3 and v2.",
       "split_face, in textbooks mef: e + 1 and f + 1. New: the edge h4/h5 and f1.",
       "",
-      "The last step is taken back, by its inverse.",
+      "The last step is taken back.",
       "The step that was taken back is done again.",
       "join_faces, in textbooks kef: e \xe2\x88\x92 1 and f \xe2\x88\x92 1. Gone: the edge h4/h5 and f1."};
   REQUIRE(story.frames.size() == expected.size() + 1);

@@ -55,6 +55,21 @@ TEST_CASE("mesh: counts, genus, area and volume of each object, a room counted n
   CHECK(std::abs(report["total"]["area"].number() - area) <= close_to(area));
 }
 
+TEST_CASE("mesh: of a mesh without a lamp it tells what the file has, and adds no studio around it") {
+  const Place place;
+  place.write("cube.obj",
+              "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n"
+              "f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n");
+  const Run run = place.run("mesh cube.obj --json -o out.obj");
+  REQUIRE(run.code == 0);
+  const json::Value report = json::parse(run.out);
+  REQUIRE(report["objects"].size() == 1);
+  CHECK(report["total"]["vertices"].number() == 8);
+  CHECK(report["total"]["edges"].number() == 12);
+  CHECK(report["total"]["faces"].number() == 6);
+  CHECK(report["total"]["volume"].number() == 1.0);
+}
+
 TEST_CASE("mesh: the written file has the counts that were told, in the coordinates of the scene") {
   const Place place;
   place.write("s.scene", shapes);
