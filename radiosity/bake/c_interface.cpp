@@ -58,6 +58,18 @@ bool is_running(halflight_job* job) {
   return true;
 }
 
+// While it lives; it ends, too, when a callback throws.
+class Running {
+ public:
+  explicit Running(halflight_job& job) : job_{job} { job.running = true; }
+  Running(const Running&) = delete;
+  Running& operator=(const Running&) = delete;
+  ~Running() { job_.running = false; }
+
+ private:
+  halflight_job& job_;
+};
+
 // An option: what it may be, and where it goes.
 struct NumberOption {
   std::string_view name;
@@ -236,10 +248,11 @@ halflight_status halflight_run(halflight_job* job) {
   job->baked.reset();
   job->lightmap.reset();
   job->changes.clear();
-  job->running = true;
-  radiosity::BakeOutcome outcome =
-      radiosity::bake({job->positions, job->indices, job->materials, job->material, job->stride}, job->options, control);
-  job->running = false;
+  radiosity::BakeOutcome outcome;
+  {
+    const Running running(*job);
+    outcome = radiosity::bake({job->positions, job->indices, job->materials, job->material, job->stride}, job->options, control);
+  }
   if (!outcome.baked) {
     std::string message;
     for (const std::string& sentence : outcome.failure.sentences) { message += (message.empty() ? "" : "\n") + sentence; }

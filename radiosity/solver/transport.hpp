@@ -125,6 +125,7 @@ class Transport {
   void arrive_at(std::uint32_t i, const EndShape& shape, double power);
 
   void keep_lamps(std::vector<bool> lamps);
+
   struct Part {
     Part(const Hierarchy& hierarchy, std::span<Link> links);
 

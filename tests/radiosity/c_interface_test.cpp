@@ -60,6 +60,15 @@ TEST_CASE("C interface: a job cannot be changed, run or destroyed from its own p
   CHECK(light[0] == 1.0f);  // alone in the world
 }
 
+TEST_CASE("C interface: a callback that throws leaves a job that can be run again") {
+  const Job job = square();
+  REQUIRE(halflight_set_progress(
+              job.get(), [](void*, const char*, double) -> int { throw 1; }, nullptr) == HALFLIGHT_OK);
+  CHECK_THROWS(halflight_run(job.get()));
+  REQUIRE(halflight_set_progress(job.get(), nullptr, nullptr) == HALFLIGHT_OK);
+  CHECK(halflight_run(job.get()) == HALFLIGHT_OK);
+}
+
 TEST_CASE("C interface: light is asked at points that are finite, and warnings of the run can be read") {
   const Job job = square();
   REQUIRE(halflight_run(job.get()) == HALFLIGHT_OK);

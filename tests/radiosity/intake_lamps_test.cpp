@@ -119,6 +119,10 @@ TEST_CASE("intake: a bare room whose lamp is sunk into its ceiling or a wall is 
     CHECK(taken.rooms.size() == (room ? 1 : 0));
     CHECK(count_of(taken, ChangeKind::inside_out) == 0);
     CHECK(count_of(taken, ChangeKind::room) == (room && !inwards ? 1 : 0));
+    options.eyes = {3.0 * size};  // looks at it from outside
+    const radiosity::Intake seen_from_outside = soup.take_in(options);
+    CHECK(seen_from_outside.rooms.empty());
+    CHECK(count_of(seen_from_outside, ChangeKind::inside_out) == (inwards ? 1 : 0));
   }
 }
 

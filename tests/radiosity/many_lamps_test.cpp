@@ -82,7 +82,7 @@ TEST_CASE("direct light: of many lamps all light is known as well as that of one
   CHECK(2 * rays < rays_alone);                     // .16 to .33
 }
 
-// What the points of one lamp miss, those of others of the same shape must not miss, too. Of a lamp two thirds of the area are never seen.
+// What the points of one lamp miss, those of others of the same shape must not miss, too. Half of each is never seen.
 TEST_CASE("direct light: of many lamps alike that are sunk into a ceiling the light is that of their lower halves", "[direct]") {
   radiosity::Scene scene;
   scene.materials = {{"grey", Color{0.5}, Color{0.0}}, {"lamp", Color{0.0}, Color{1.0}}};
@@ -126,5 +126,5 @@ TEST_CASE("direct light: of many lamps alike that are sunk into a ceiling the li
     for (const glm::dvec3& middle : middles) { truth += of_lamp(middle, x); }
     found += world.region(x, 0.02).irradiance(world.in_frame(x), {0, 0, 1}).x;
   }
-  CHECK(std::abs(found / truth - 1.0) < 0.015);
+  CHECK(std::abs(found / truth - 1.0) < 0.015);  // by the same points for all lamps, and few of them, single points were .01 to .047 off
 }

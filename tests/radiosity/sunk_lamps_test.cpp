@@ -14,7 +14,7 @@ using soup::Soup;
 
 namespace {
 
-// A room of an object for each wall, and lamps half in two of the walls.
+// A room of walls without a thickness, and lamps half in two of them.
 Soup room_of_sunk_lamps() {
   Soup soup;
   soup.names = {"room", "lamp"};
