@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -90,16 +91,19 @@ HALFLIGHT_INLINE DenseSolution gauss_seidel(const DenseMatrix& matrix, const Lea
     for (std::size_t j = 0; j < n; ++j) { sum += static_cast<double>(matrix.row(i)[j]) * b[j]; }
     return materials.emission[i] + materials.reflectance[i] * sum / exchange.area(i);
   };
-  double emitted = 0.0;
+  double emitted = 0.0, reflected = 0.0;
   for (std::size_t i = 0; i < n; ++i) { emitted += exchange.area(i) * glm::dot(materials.emission[i], materials.emission[i]); }
   for (;; ++solution.iterations) {
-    double square = 0.0;
+    double square = 0.0, known = 0.0;  // of what reflects
     for (std::size_t i = 0; i < n; ++i) {
       const Color r = gathered(i) - b[i];
       square += exchange.area(i) * glm::dot(r, r);
+      if (brightest(materials.reflectance[i]) > 0.0) { known += exchange.area(i) * glm::dot(b[i], b[i]); }
     }
+    if (solution.iterations == 0) { reflected = std::sqrt(square); }
     solution.residual = emitted > 0.0 ? std::sqrt(square / emitted) : 0.0;
-    solution.converged = solution.residual <= wanted;
+    const double rounding = 16.0 * std::numeric_limits<double>::epsilon() * std::sqrt(known);
+    solution.converged = std::sqrt(square) <= std::max(wanted * reflected, rounding);
     solution.cancelled = control.cancelled();
     if (solution.converged || solution.cancelled || solution.iterations == max_iterations) { return solution; }
     for (std::size_t i = 0; i < n; ++i) { b[i] = gathered(i); }

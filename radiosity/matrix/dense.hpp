@@ -53,7 +53,7 @@ struct DenseSolution {
   bool cancelled = false;
 };
 
-// Gauss-Seidel until the residual is at most `wanted`.
+// Gauss-Seidel until the residual is at most `wanted` times that of B = E, or rounding.
 [[nodiscard]] DenseSolution gauss_seidel(const DenseMatrix& matrix, const LeafExchange& exchange, const LeafMaterials& materials,
                                          double wanted, std::uint32_t max_iterations, const Control& control = {});
 

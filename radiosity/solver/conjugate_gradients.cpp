@@ -146,7 +146,7 @@ HALFLIGHT_INLINE LinearSolution conjugate_gradients(const Channel& channel, doub
   std::vector<double> r;
   std::vector<double> step;
   std::vector<double> image;
-  Progress progress{channel.norm(b), b};
+  Progress progress{channel};
   double square = 0.0;
   for (std::uint32_t iteration = 0;; ++iteration) {
     if (iteration % 16 == 0) {  // the true residual, so that rounding in the recurrence does not build up
@@ -155,8 +155,7 @@ HALFLIGHT_INLINE LinearSolution conjugate_gradients(const Channel& channel, doub
     }
     const double norm = channel.norm(r);
     progress.offer(b, norm);
-    if (norm <= std::max(wanted * progress.start, Progress::rounding(channel.norm(b))) || progress.diverged(norm) ||
-        iteration == max_iterations) {
+    if (norm <= std::max(wanted * progress.reflected, channel.rounding(b)) || progress.diverged(norm) || iteration == max_iterations) {
       return finish(channel, std::move(progress), iteration, wanted);
     }
     const double next_square = system.inner(r, r);

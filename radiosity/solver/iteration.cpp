@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -24,6 +25,20 @@ HALFLIGHT_INLINE double Channel::norm(const std::vector<double>& r) const {
   return std::sqrt(sum);
 }
 
+HALFLIGHT_INLINE double Channel::rounding(const std::vector<double>& b) const {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < b.size(); ++i) {
+    if (counts(i) && reflectance[i] > 0.0) { sum += (*area)[i] * b[i] * b[i]; }
+  }
+  return 16.0 * std::numeric_limits<double>::epsilon() * std::sqrt(sum);
+}
+
+HALFLIGHT_INLINE Progress::Progress(const Channel& channel) : start{channel.norm(channel.emission)}, best{channel.emission} {
+  std::vector<double> r;
+  channel.residual(channel.emission, r);
+  reflected = channel.norm(r);
+}
+
 HALFLIGHT_INLINE void Progress::offer(const std::vector<double>& b, double norm) {
   history.push_back(start > 0.0 ? norm / start : 0.0);
   if (norm < best_norm) {
@@ -37,7 +52,7 @@ HALFLIGHT_INLINE LinearSolution finish(const Channel& channel, Progress progress
   solution.radiosity = std::move(progress.best);
   solution.residual = progress.start > 0.0 ? progress.best_norm / progress.start : 0.0;
   solution.iterations = iterations;
-  solution.converged = progress.best_norm <= std::max(wanted * progress.start, Progress::rounding(channel.norm(solution.radiosity)));
+  solution.converged = progress.best_norm <= std::max(wanted * progress.reflected, channel.rounding(solution.radiosity));
   solution.history = std::move(progress.history);
   std::vector<double>& b = solution.radiosity;
   // Where hardly any light arrives an iterate may be negative, within its residual. A radiosity cannot be, so 0 is nearer to the truth.

@@ -2,6 +2,9 @@
 #pragma once
 
 // What the iterations of solve.hpp share: one channel of the linear system, its residual, the best iterate and when to stop.
+//
+// Residuals are told relative to that of B = 0, which is E. An iteration ends by that of B = E, the light that is reflected first: where
+// a sun shines on little, or surfaces are nearly black, it is a millionth of E, and all that is to be found.
 
 #include <cstddef>
 #include <cstdint>
@@ -39,13 +42,17 @@ struct Channel {
   }
 
   [[nodiscard]] double norm(const std::vector<double>& r) const;
+  // Below this the norm of a residual of B = b is rounding: B and H(B) are sums of some ten terms a level, each known to half an epsilon.
+  // What reflects nothing has no residual.
+  [[nodiscard]] double rounding(const std::vector<double>& b) const;
 };
 
 // Keeps the best iterate and tells when to stop.
 struct Progress {
-  Progress(double start_norm, const std::vector<double>& b) : start{start_norm}, best{b} {}
+  explicit Progress(const Channel& channel);
 
-  double start = 0.0;  // norm of E
+  double start = 0.0;      // norm of E
+  double reflected = 0.0;  // of the residual of B = E
   std::vector<double> best;
   double best_norm = std::numeric_limits<double>::infinity();
 
@@ -53,8 +60,6 @@ struct Progress {
 
   void offer(const std::vector<double>& b, double norm);
   [[nodiscard]] bool diverged(double norm) const { return !(norm <= 1e3 * best_norm); }
-  // Below this a residual is rounding: B and H(B) are sums of some ten terms a level, each known to half an epsilon.
-  [[nodiscard]] static double rounding(double norm_of_b) { return 16.0 * std::numeric_limits<double>::epsilon() * norm_of_b; }
 };
 
 LinearSolution finish(const Channel& channel, Progress progress, std::uint32_t iterations, double wanted);

@@ -31,12 +31,13 @@ template <class Step>
                                      const Step& step) {
   std::vector<double> b(channel.emission);
   std::vector<double> r;
-  Progress progress{channel.norm(b), b};
+  Progress progress{channel};
   for (std::uint32_t iteration = 0;; ++iteration) {
     channel.residual(b, r);
     const double norm = channel.norm(r);
     progress.offer(b, norm);
-    if (norm <= wanted * progress.start || progress.diverged(norm) || iteration == max_iterations || control.cancelled()) {
+    if (norm <= std::max(wanted * progress.reflected, channel.rounding(b)) || progress.diverged(norm) || iteration == max_iterations ||
+        control.cancelled()) {
       return finish(channel, std::move(progress), iteration, wanted);
     }
     step(b, r);
@@ -89,12 +90,13 @@ HALFLIGHT_INLINE LinearSolution southwell(const Channel& channel, double wanted,
   };
   std::vector<double> more(trees.trees(), 0.0);  // power that one shot brings to each tree
   std::vector<std::uint32_t> reached;
-  Progress progress{channel.norm(unshot), b};
+  Progress progress{channel};
   for (std::uint32_t iteration = 0;; ++iteration) {
     for (std::uint32_t t = 0; t < trees.trees(); ++t) { receive(t); }
     const double norm = channel.norm(unshot);
     progress.offer(b, norm);
-    if (norm <= wanted * progress.start || progress.diverged(norm) || iteration == max_iterations || control.cancelled()) {
+    if (norm <= std::max(wanted * progress.reflected, channel.rounding(b)) || progress.diverged(norm) || iteration == max_iterations ||
+        control.cancelled()) {
       return finish(channel, std::move(progress), iteration, wanted);
     }
     for (std::size_t work = 0; work < step && !control.cancelled();) {

@@ -14,9 +14,9 @@
 //                        with the most unshot power, for what its shot costs, shoots it. Where surfaces differ much in their links those
 //                        with the most power alone would do all the work. An iteration costs what one of Gauss-Seidel does.
 //
-// Residual: || E + rho H(B) - B || / || E + rho H(0) ||, area-weighted over all leaves. The iterate with the least
-// residual is kept; an iteration that diverges is stopped and says so. Where rho is so near 1 that B is known to no more than the
-// residual wanted, the residual ends at the rounding of B.
+// Residual: || E + rho H(B) - B || / || E ||, area-weighted over all leaves. An iteration ends when it is `wanted` times that of B = E,
+// which is the light that is reflected first. The iterate with the least residual is kept; an iteration that diverges is stopped and says
+// so. Where rho is so near 1 that B is known to no more than the residual wanted, the residual ends at the rounding of B.
 
 #include <cstdint>
 #include <vector>
@@ -45,7 +45,7 @@ LinearSolution southwell(const Channel& channel, double wanted, std::uint32_t ma
 // How a system is solved, and how far.
 struct SolveBy {
   Solver solver = Solver::conjugate_gradients;
-  double residual = 1e-8;  // wanted, relative to that of B = 0
+  double residual = 1e-8;  // wanted, relative to that of B = E
   std::uint32_t max_iterations = 1000;
 };
 

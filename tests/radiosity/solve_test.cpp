@@ -43,6 +43,31 @@ TEST_CASE("all solvers find the same solution, and leave B = E on a black surfac
   }
 }
 
+TEST_CASE("reflected light is solved to the same digits, however little of the emission it is") {
+  LinearProblem problem{8, 0.8, 12};
+  Transport transport{problem.hierarchy, problem.links, problem.exposure};
+  std::vector<double> emission(8, 0.0), arrived;
+  emission[3] = 1.0;
+  std::vector<double> sent(problem.hierarchy.size(), 0.0);
+  for (std::size_t i = 0; i < sent.size(); ++i) { sent[i] = problem.hierarchy[i].leaf() ? emission[problem.hierarchy[i].surface] : 0.0; }
+  transport.apply(sent, arrived);
+  for (const double rho : {1e-4, 1e-8, 1e-12, 1e-16, 1e-30}) {
+    std::vector<double> reflectance(8, rho);
+    reflectance[3] = 0.0;  // or its own emission would round what it reflects
+    for (const Solver solver : {Solver::conjugate_gradients, Solver::jacobi, Solver::gauss_seidel, Solver::southwell}) {
+      CAPTURE(rho, name(solver));
+      const auto solved = radiosity::solve_channel(transport, problem.exposure.area, reflectance, emission, {solver, 1e-10, 100});
+      CHECK(solved.converged);
+      CHECK(solved.iterations <= 4);
+      for (std::size_t i = 8; i < sent.size(); ++i) {
+        if (problem.hierarchy[i].surface == 3) { continue; }
+        // The second reflection is rho times the first, or less.
+        CHECK(solved.radiosity[i] == test::Approx(rho * arrived[i] / problem.exposure.area[i]).epsilon(2.0 * rho + 1e-9));
+      }
+    }
+  }
+}
+
 TEST_CASE("the residual history falls by rho times the row sum with Jacobi, and by its square with Gauss-Seidel") {
   // Two surfaces that see only each other, F = 0.8 both ways: Jacobi has the spectral radius rho F, Gauss-Seidel its square.
   LinearProblem problem{2, 0.0, 5};
