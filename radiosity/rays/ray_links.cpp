@@ -228,10 +228,9 @@ struct RowEstimate {
 HALFLIGHT_INLINE std::vector<double> RayLinks::row_sums(const DiscreteScene& scene, const Transport& transport, const Links& made,
                                                         const std::vector<double>& computed, const std::vector<double>& of_lamps,
                                                         double error_of_lamps) const {
-  constexpr double least = 1e-3;  // under a lamp that touches a surface: no scale makes a row 0
   const std::vector<double>& area = scene.exposure.area;
   const auto left = [&](std::size_t i) {
-    return transport.closed(i) ? std::max(least, 1.0 - of_lamps[i]) : computed[i] * std::max(0.0, 1.0 - of_lamps[i]);
+    return transport.closed(i) ? std::max(least_left, 1.0 - of_lamps[i]) : computed[i] * std::max(0.0, 1.0 - of_lamps[i]);
   };
   struct Means {
     double computed = 0.0, of_lamps = 0.0, left = 0.0;

@@ -45,7 +45,7 @@ HALFLIGHT_INLINE std::vector<double> add_ray_links(Run& run, double error_of_lam
   std::vector<double> of_rays;
   for (std::size_t i = 0; i < computed.size(); ++i) { of_rays.push_back(computed[i] - of_lamps[i]); }
   const std::vector<double> wanted = made.row_sums(run.scene, *run.transport, run.solution.ray_links, of_rays, of_lamps, error_of_lamps);
-  run.solution.audit.ray_correction = run.transport->scale_sampled(wanted, closed ? 16.0 : 4.0);
+  run.solution.audit.ray_correction = run.transport->scale_sampled(wanted, closed ? scales_of_closed : scales_of_open);
   return computed;
 }
 

@@ -83,7 +83,7 @@ HALFLIGHT_INLINE std::vector<double> balance(const SymmetricOperator& apply, con
   std::vector<double> rows;
   std::vector<double> missing(n, 0.0);
   std::vector<bool> free(n, false);
-  const auto limit = [&](double scale) { return goal.most > 0.0 ? std::clamp(scale, 1.0 / goal.most, goal.most) : scale; };
+  const auto limit = [&](double scale) { return std::clamp(scale, goal.limits.least, goal.limits.most); };
   // The scale that has come nearest to the goal. Where the system is nearly singular a linear step leads away.
   double nearest = std::numeric_limits<double>::infinity(), start = nearest;
   std::vector<double> nearest_scale = matrix.scale;

@@ -7,6 +7,7 @@
 // light each other and lambda is near -1.
 
 #include <functional>
+#include <limits>
 #include <vector>
 
 namespace radiosity {
@@ -14,8 +15,11 @@ namespace radiosity {
 // y = S x.
 using SymmetricOperator = std::function<void(const std::vector<double>& x, std::vector<double>& y)>;
 
+struct ScaleLimits {
+  double least = 0.0, most = std::numeric_limits<double>::infinity();
+};
 struct Balance {
-  double most = 0.0;         // scales stay between 1 / most and most
+  ScaleLimits limits{};
   double tolerance = 1e-12;  // of row sums, relative
 };
 

@@ -202,21 +202,20 @@ HALFLIGHT_INLINE void Transport::scale_lamps() {
   }
 }
 
-HALFLIGHT_INLINE void Transport::scale(std::size_t number, const std::vector<double>& rows, double most) {
+HALFLIGHT_INLINE void Transport::scale(std::size_t number, const std::vector<double>& rows, const ScaleLimits& limits) {
   std::vector<double> power(rows);
   for (std::size_t i = 0; i < power.size(); ++i) { power[i] *= area_[i]; }
-  // Row sums that no scale brings about, of a patch that sees little else than one other, would drive scales towards 0 and infinity.
   const auto apply_part = [&](const std::vector<double>& x, std::vector<double>& y) {
     y.assign(x.size(), 0.0);
     apply(number, x, y);
   };
-  parts_[number].scale = balance(apply_part, power, {.most = most, .tolerance = 1e-6});
+  parts_[number].scale = balance(apply_part, power, {limits, 1e-6});
 }
 
-HALFLIGHT_INLINE double Transport::scale_sampled(const std::vector<double>& wanted, double most) {
+HALFLIGHT_INLINE double Transport::scale_sampled(const std::vector<double>& wanted, const ScaleLimits& limits) {
   const std::size_t part = parts_.size() - 1;
   const std::vector<double> before = row_sums(part);
-  scale(part, wanted, most);
+  scale(part, wanted, limits);
   const std::vector<double> after = row_sums(part);
   double correction = 0.0;
   double all = 0.0;
@@ -228,14 +227,13 @@ HALFLIGHT_INLINE double Transport::scale_sampled(const std::vector<double>& want
 }
 
 HALFLIGHT_INLINE std::vector<double> Transport::left_by_lamps() {
-  constexpr double least = 1e-3;  // under a lamp that touches a surface: no scale makes a row 0
   std::vector<double> left(hierarchy_->size(), 1.0);
   for (std::size_t part = 0; part + 1 < parts_.size(); ++part) {
     const std::vector<double> rows = row_sums(part);
     for (std::size_t i = 0; i < left.size(); ++i) { left[i] -= rows[i]; }
   }
   const std::vector<double> own = row_sums(parts_.size() - 1);
-  for (std::size_t i = 0; i < left.size(); ++i) { left[i] = closed(i) ? std::max(least, left[i]) : own[i]; }
+  for (std::size_t i = 0; i < left.size(); ++i) { left[i] = closed(i) ? std::max(least_left, left[i]) : own[i]; }
   return left;
 }
 
@@ -262,13 +260,13 @@ HALFLIGHT_INLINE std::optional<double> Transport::close(double limit, double tol
   if (!(rms <= limit)) { return std::nullopt; }
   if (!lamps_.empty() && sampled_ == 0 && parts_.size() > 1) {
     scale_lamps();
-    scale(parts_.size() - 1, left_by_lamps(), 16.0);
+    scale(parts_.size() - 1, left_by_lamps(), scales_of_closed);
   }
   std::vector<double> power(hierarchy_->size(), 0.0);
   const std::vector<double> own = closed_.empty() ? std::vector<double>{} : row_sums();
   for (std::size_t i = 0; i < power.size(); ++i) { power[i] = !(*hierarchy_)[i].leaf() ? 0.0 : closed(i) ? area_[i] : area_[i] * own[i]; }
   const std::vector<double> scale =
-      balance([&](const std::vector<double>& x, std::vector<double>& y) { apply(x, y); }, power, {.tolerance = tolerance});
+      balance([&](const std::vector<double>& x, std::vector<double>& y) { apply(x, y); }, power, {{}, tolerance});
   for (Part& part : parts_) {
     for (std::size_t i = 0; i < scale.size(); ++i) { part.scale[i] *= scale[i]; }
   }

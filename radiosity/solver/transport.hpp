@@ -32,6 +32,7 @@
 #include <radiosity/hierarchy/hierarchy.hpp>
 #include <radiosity/hierarchy/links.hpp>
 #include <radiosity/links/link_schedule.hpp>
+#include <radiosity/solver/balance.hpp>
 #include <radiosity/visibility/exposure.hpp>
 
 namespace radiosity {
@@ -41,6 +42,12 @@ struct ClosedNodes {
   std::vector<bool> nodes;  // empty: all
   std::vector<bool> lamps;  // the links with one end in them are a part of their own; empty: none
 };
+
+// Row sums that no scale brings about, of a patch that sees little else than one other, would drive scales of sampled links towards 0 and
+// infinity. In a closed scene a leaf under a lamp may need a small one: where the lamp leaves least_left of the horizon, its links are
+// those of a wider node around the lamp.
+inline constexpr double least_left = 1e-3;  // of a row, beside lamps: no scale makes a row 0
+inline constexpr ScaleLimits scales_of_open{1.0 / 4.0, 4.0}, scales_of_closed{least_left / 4.0, 16.0};
 
 class Transport {
  public:
@@ -52,10 +59,10 @@ class Transport {
 
   // Adds links that were sampled, between patches, once. They must outlive the operator, which arranges them.
   void add_sampled(Links& links);
-  // Makes their row sums those of `rows`, one a node, read at the leaves, within 1e-6 (balance.hpp), with D between 1 / most and most.
+  // Makes their row sums those of `rows`, one a node, read at the leaves, within 1e-6, as far as scales within the limits go.
   // Returns the area-weighted RMS by which their row sums changed, relative to the RMS of these: where an open scene has row sums near 0,
   // D may be far from 1 and change nothing.
-  double scale_sampled(const std::vector<double>& rows, double most = 4.0);
+  double scale_sampled(const std::vector<double>& rows, const ScaleLimits& limits);
   // What the row sums of the last part must be: at closed nodes, where rows sum to 1, what the other parts leave of 1; at others what they
   // are.
   [[nodiscard]] std::vector<double> left_by_lamps();
@@ -137,8 +144,8 @@ class Transport {
   // Adds to y what arrives over the links of a part.
   void apply(std::size_t part, const std::vector<double>& x, std::vector<double>& y);
   [[nodiscard]] std::vector<double> row_sums(std::size_t part);
-  // Scales the links of a part to these row sums, as far as scales between 1 / most and most go.
-  void scale(std::size_t part, const std::vector<double>& rows, double most);
+  // Scales the links of a part to these row sums, as far as scales within the limits go.
+  void scale(std::size_t part, const std::vector<double>& rows, const ScaleLimits& limits);
   // The area-weighted RMS by which the row sums of closed leaves differ from 1, those that see nothing left out.
   [[nodiscard]] double amiss(const std::vector<double>& rows) const;
 

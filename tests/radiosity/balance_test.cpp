@@ -92,7 +92,7 @@ TEST_CASE("two sides that light hardly anything but each other are balanced in f
 TEST_CASE("a goal that no scale meets ends, with scales within their limits") {
   Matrix matrix{2};
   matrix.at(0, 1) = matrix.at(1, 0) = 1.0;  // both rows sum up to the same power
-  for (const double scale : balanced(matrix, {1.0, 2.0}, {.most = 4.0, .tolerance = 1e-12})) {
+  for (const double scale : balanced(matrix, {1.0, 2.0}, {{0.25, 4.0}, 1e-12})) {
     CHECK(scale >= 0.25);
     CHECK(scale <= 4.0);
   }
@@ -139,6 +139,6 @@ TEST_CASE("row sums end no further from the goal than they began, also where no 
       return sum;
     };
     const double before = off(ones);
-    CHECK(off(balanced(matrix, t, {.most = 4.0, .tolerance = 1e-6})) <= before * (1.0 + 1e-12) + 1e-300);
+    CHECK(off(balanced(matrix, t, {{0.25, 4.0}, 1e-6})) <= before * (1.0 + 1e-12) + 1e-300);
   }
 }

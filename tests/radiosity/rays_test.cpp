@@ -198,7 +198,7 @@ TEST_CASE("the noise of rays is what they tell: solutions by other rays differ b
     radiosity::Links none;
     radiosity::Transport transport{discrete->hierarchy, none, discrete->exposure};
     transport.add_sampled(made.links);
-    static_cast<void>(transport.scale_sampled(made.share));
+    static_cast<void>(transport.scale_sampled(made.share, radiosity::scales_of_open));
     transport.apply(height, y);
     std::vector<std::pair<double, double>> result;  // area and reflected radiosity
     for (const std::uint32_t i : leaves_of(*discrete)) {
