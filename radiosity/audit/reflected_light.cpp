@@ -21,6 +21,7 @@
 #include <radiosity/hierarchy/buried.hpp>
 #include <radiosity/hierarchy/hierarchy.hpp>
 #include <radiosity/hierarchy/patch.hpp>
+#include <radiosity/oracle/lit_faces.hpp>
 #include <radiosity/refinement/discrete_scene.hpp>
 #include <radiosity/scene/material.hpp>
 #include <radiosity/support/parallel.hpp>
@@ -138,15 +139,18 @@ struct LampRayEnd {
   return power * brightest(rho * reflected_once(tracer, end->at, end->object, end->sheet, random));
 }
 
-// Points of the input faces that are not buried, spread evenly over their area, and over their emission.
+// Points spread evenly over the area of the lit faces, and over the emission of all that are not buried.
 struct FacesAndLamps {
   std::vector<bool> buried;
+  LitFaces lit;
   FacePoints area, lamps;
   explicit FacesAndLamps(const DiscreteScene& scene)
       : buried{buried_nodes(scene.surfaces, scene.hierarchy)},
-        area{scene, [&](std::uint32_t i) { return counts(i); }},
-        lamps{scene, [&](std::uint32_t i) { return counts(i) * brightest(scene.emission[scene.hierarchy[i].surface]); }} {}
-  [[nodiscard]] double counts(std::uint32_t i) const { return i < buried.size() && buried[i] ? 0.0 : 1.0; }
+        lit{scene.hierarchy, scene.reflectance, scene.emission, buried},
+        area{scene, [&](std::uint32_t i) { return lit(i) ? 1.0 : 0.0; }},
+        lamps{scene, [&](std::uint32_t i) {
+                return i < buried.size() && buried[i] ? 0.0 : brightest(scene.emission[scene.hierarchy[i].surface]);
+              }} {}
 };
 
 }  // namespace detail
@@ -175,10 +179,9 @@ HALFLIGHT_INLINE double reflected_light(const DiscreteScene& scene, const PathTr
     const auto count = static_cast<double>(points);
     const detail::Mean& larger = at_points.sum >= by_lamps.sum ? at_points : by_lamps;
     const double square = larger.value(count), doubt = larger.doubt(count);
-    const double least = emitted * emitted / (count * count);
-    result = std::sqrt(std::max(square, least)) / emitted;
-    const bool known = square > least && doubt < 0.2 * square;  // a tenth of the root
-    if (known || square - doubt > emitted * emitted) { break; }
+    if (!(square > 0.0)) { continue; }
+    result = std::sqrt(square) / emitted;
+    if (doubt < 0.2 * square || square - doubt > emitted * emitted) { break; }  // a tenth of the root
   }
   return result;
 }

@@ -14,9 +14,9 @@
 
 namespace radiosity {
 
-// Its RMS radiosity over the area of the input faces that are not buried, whose patches must be there, relative to their mean emission,
-// each in its brightest channel: to some 10 %, by 256 points and 256 rays or more, where little is lit by up to 16384 of each. Where none
-// of them finds light, the share that so many might have missed.
+// Its RMS radiosity over the area of the lit faces (lit_faces.hpp), relative to the mean emission, each in its brightest channel, to some
+// 10 %: by 256 points and 256 rays or more, where little is lit by up to 16384 of each. Where none of them finds light, 1. Patches of all
+// input faces must be there.
 [[nodiscard]] double reflected_light(const DiscreteScene& scene, const PathTracer& tracer);
 
 // The mean of the same light in place of its RMS, to some 3 %, by 1024 rays from the lamps: what bright spots beside lamps hardly raise.

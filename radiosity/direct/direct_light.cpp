@@ -165,6 +165,7 @@ HALFLIGHT_INLINE DirectLight::DirectLight(const raycast::Scene& objects, const s
   for (std::uint32_t o = 0; o < objects.size(); ++o) { slack_ = std::max(slack_, 2.0 * objects.object(o).slack()); }
   std::vector<Candidate> candidates;
   double total = 0.0;
+  raycast::Box dark;  // what does not shine
   for (std::uint32_t s = 0; s < surfaces.size(); ++s) {
     std::vector<double> area(surfaces[s].object->sheet_count(), 0.0);
     for (const brep::FaceId f : brep::faces(surfaces[s].brep)) {
@@ -174,9 +175,11 @@ HALFLIGHT_INLINE DirectLight::DirectLight(const raycast::Scene& objects, const s
     for (std::uint32_t sheet = 0; sheet < area.size(); ++sheet) {
       total += area[sheet];
       const Color& e = emission[surfaces[s].first_surface + sheet];
+      if (is_black(e)) { dark.extend(surfaces[s].object->bounds()); }
       if (!is_black(e) && area[sheet] > 0.0) { candidates.push_back({{{s, {sheet}}}, e, brightest(e), area[sheet]}); }
     }
   }
+  if (!dark.empty()) { off_surface_ *= std::min(1.0, dark.diameter()); }
   if (limits.bodies && candidates.size() > limits.most) { candidates = join_alike(candidates, objects, limits.most); }
   std::stable_sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) { return a.strength > b.strength; });
   std::vector<bool> is_fine;  // by lamp

@@ -31,17 +31,14 @@ namespace radiosity {
 
 namespace detail {
 
-// How far segments stay off the surfaces at their ends, in a scene of size 1 to 2: more than single precision's error.
-inline constexpr double off_surface = 1e-5;
-
 inline constexpr std::size_t least_carrying = 4;  // samples of a lamp that face a point, for the share that is seen to follow from them
 
 }  // namespace detail
 
 HALFLIGHT_INLINE LitRegion::Asked16 LitRegion::ask16(Reach& reach, const glm::dvec3& x, const glm::dvec3& n,
                                                      std::span<const LampSample> samples) {
-  // Away from flat surfaces on which they begin and end, segments need no owners, and single precision decides about nearly all.
-  const glm::dvec3 from = x + std::max(lift_, detail::off_surface) * n;
+  const double off_surface = light_->off_surface();
+  const glm::dvec3 from = x + std::max(lift_, off_surface) * n;
   const bool curved = owner_ != raycast::no_object && !light_->objects_->object(owner_).flat();  // and convex, or a mesh would stand in
   const std::uint32_t source = curved ? owner_ : raycast::no_object;
   Asked16 result;
@@ -53,7 +50,7 @@ HALFLIGHT_INLINE LitRegion::Asked16 LitRegion::ask16(Reach& reach, const glm::dv
     if (!(glm::dot(n, d) > 0.0) || !(cosines > 0.0)) { continue; }
     const double r2 = glm::dot(d, d);
     result.weight[k] = cosines / (r2 * r2);
-    const double to_lift = sample.end.owner == raycast::no_object ? detail::off_surface : 0.0;
+    const double to_lift = sample.end.owner == raycast::no_object ? off_surface : 0.0;
     segments.set(k, {from, sample.position + to_lift * sample.normal - from}, source, sample.end.owner);
   }
   rays_ += static_cast<unsigned>(std::popcount(segments.lanes));

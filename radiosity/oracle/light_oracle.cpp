@@ -23,6 +23,7 @@
 #include <radiosity/hierarchy/patch.hpp>
 #include <radiosity/oracle/cluster_oracle.hpp>
 #include <radiosity/oracle/f_oracle.hpp>
+#include <radiosity/oracle/lit_faces.hpp>
 #include <radiosity/scene/material.hpp>
 #include <radiosity/scene/scene.hpp>
 #include <radiosity/support/random.hpp>
@@ -158,18 +159,19 @@ HALFLIGHT_INLINE LightOracle::LightOracle(const Scene& input, const SceneView& s
                                           std::uint64_t seed, const std::vector<bool>& buried)
     : scene_{scene}, shown_{&shown}, sampler_{scene, nullptr, shown}, epsilon_{epsilon}, seed_{seed} {
   const Hierarchy& hierarchy = scene.hierarchy;
+  std::vector<Color> reflectance, exitance;
   for (const InputSurface& surface : radiosity::surfaces(input)) {
-    const Color& emission = input.materials[surface.material].emission;
-    emission_.push_back(std::max({emission.x, emission.y, emission.z}));
-    shows_.push_back(std::min(1.0, 2.0 * brightest(input.materials[surface.material].reflectance)));
+    reflectance.push_back(input.materials[surface.material].reflectance);
+    exitance.push_back(input.materials[surface.material].emission);
+    emission_.push_back(brightest(exitance.back()));
+    shows_.push_back(std::min(1.0, 2.0 * brightest(reflectance.back())));
   }
-  double power = 0.0;
+  const LitFaces lit{hierarchy, reflectance, exitance, buried};
+  scene_area_ = lit.area();
   std::map<std::pair<std::uint32_t, double>, double> alike;  // area of what shines alike, by object
   for (std::size_t i = 0; i < hierarchy.size(); ++i) {
     if (!is_input_face(hierarchy, i) || (i < buried.size() && buried[i])) { continue; }
     const Node& root = hierarchy[i];
-    power += root.area * emission_[root.surface];
-    scene_area_ += root.area;
     alike[{root.object, emission_[root.surface]}] += root.area;
   }
   lamp_area_.resize(emission_.size());
@@ -179,7 +181,7 @@ HALFLIGHT_INLINE LightOracle::LightOracle(const Scene& input, const SceneView& s
     const bool room = scene.objects.object(root.object).inside();  // its faces are no parts of one lamp: they shine all around
     lamp_area_[root.surface] = room ? 0.0 : alike[{root.object, emission_[root.surface]}];
   }
-  for (double& e : emission_) { e = power > 0.0 ? e / power * scene_area_ : 0.0; }
+  for (double& e : emission_) { e = lit.mean_emission() > 0.0 ? e / lit.mean_emission() : 0.0; }
   for (std::size_t i = hierarchy.size(); i-- > 0;) {
     const Node& node = hierarchy[i];
     if (!node.is_cluster()) { continue; }

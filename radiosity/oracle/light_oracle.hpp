@@ -40,7 +40,7 @@ class LightOracle {
   LightOracle(const Scene& input, const SceneView& scene, const ShownAreas& shown, double epsilon, std::uint64_t seed,
               const std::vector<bool>& buried = {});
 
-  // Total area of the input faces that are not buried.
+  // Of the faces over which light is spread (lit_faces.hpp).
   [[nodiscard]] double scene_area() const { return scene_area_; }
 
   // Asked once it is known what can stand between the two. Splits the end whose light varies too much because of the other, down to
@@ -70,7 +70,7 @@ class LightOracle {
   std::optional<LampExchange> lamps_;  // where lamps alone have clusters
   double epsilon_;
   std::uint64_t seed_;
-  std::vector<double> emission_;   // one an input surface: the largest channel, relative to the mean over the scene's area
+  std::vector<double> emission_;   // one an input surface: the largest channel, relative to the mean
   std::vector<double> shows_;      // one an input surface: how much it shows of the light that arrives, beside one that reflects half
   std::vector<double> lamp_area_;  // one an input surface: of all that shines like it and is of the same body; 0 in a room
   struct ClusterLight {

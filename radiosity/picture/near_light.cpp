@@ -123,7 +123,7 @@ class LampChoice {
 }  // namespace detail
 
 HALFLIGHT_INLINE void NearLight::light_by_lamps(Paths& paths, std::span<PathNumbers> numbers) const {
-  constexpr double off_surface = 1e-5;  // more than single precision's error, in a scene of size 1 to 2
+  const double off_surface = direct_->off_surface();
   raycast::Segments16 segments;
   std::array<Color, paths_at_once> arriving{};
   // Samples of a lamp that stand in a row are even over it, and so are the lamps that paths choose.

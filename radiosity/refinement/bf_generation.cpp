@@ -20,6 +20,7 @@
 #include <radiosity/links/evaluate.hpp>
 #include <radiosity/links/link_schedule.hpp>
 #include <radiosity/oracle/f_oracle.hpp>
+#include <radiosity/oracle/lit_faces.hpp>
 #include <radiosity/oracle/oracle.hpp>
 #include <radiosity/refinement/bf_goal.hpp>
 #include <radiosity/refinement/closed_nodes.hpp>
@@ -42,9 +43,7 @@ HALFLIGHT_INLINE BfState::BfState(DiscreteScene& of) : scene{of}, proofs{of.surf
   result.links = Links(scene.budget.arrays);
   result.refined = refine(scene, {first_epsilon, 1e-3, 0.0});
   for (const auto [p, q, list] : std::exchange(result.refined.linked, {})) { links.push_back({{p, q}, list, {}}); }
-  double scene_area = 0.0;
-  for (const Node& node : scene.hierarchy) { scene_area += node.parent == no_node ? node.area : 0.0; }
-  min_area = 0x1p-24 * scene_area;
+  min_area = 0x1p-24 * LitFaces{scene.hierarchy, scene.reflectance, scene.emission, {}}.area();
   sees_itself.resize(scene.hierarchy.size(), false);
   for (const std::uint32_t i : result.refined.inner) { sees_itself[i] = true; }
 }

@@ -62,7 +62,7 @@ class LeafSplitting {
       : scene_{scene}, hierarchy_{scene.hierarchy}, area_{scene.exposure.area}, links_{links}, light_{coarse_light(scene, links, 3)} {
     const double share = 0.25 * rule.light_epsilon;
     least_error_ = share * share * light_.reflected_square;
-    least_area_ = rule.min_area * exposed_faces_area(scene);
+    least_area_ = rule.min_area * lit_area(scene);
   }
 
   [[nodiscard]] LeafSplits operator()(DoubtSum& doubt) {

@@ -19,6 +19,7 @@
 #include <radiosity/hierarchy/links.hpp>
 #include <radiosity/hierarchy/surface.hpp>
 #include <radiosity/links/evaluate.hpp>
+#include <radiosity/oracle/lit_faces.hpp>
 #include <radiosity/refinement/discrete_scene.hpp>
 #include <radiosity/scene/options.hpp>
 
@@ -51,12 +52,10 @@ HALFLIGHT_INLINE bool at_blade(const DiscreteScene& scene, std::uint32_t leaf) {
   return false;
 }
 
-HALFLIGHT_INLINE double exposed_faces_area(const DiscreteScene& scene) {
-  double total = 0.0;
-  for (std::size_t i = 0; i < scene.hierarchy.size(); ++i) {
-    if (is_input_face(scene.hierarchy, i) && scene.exposure.area[i] > 0.0) { total += scene.hierarchy[i].area; }
-  }
-  return total;
+HALFLIGHT_INLINE double lit_area(const DiscreteScene& scene) {
+  std::vector<bool> buried(scene.hierarchy.size());
+  for (std::size_t i = 0; i < buried.size(); ++i) { buried[i] = !(scene.exposure.area[i] > 0.0); }
+  return LitFaces{scene.hierarchy, scene.reflectance, scene.emission, buried}.area();
 }
 
 }  // namespace radiosity

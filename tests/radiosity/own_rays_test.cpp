@@ -151,7 +151,8 @@ TEST_CASE("own rays: what the caster says is the visibility", "[accuracy]") {
     const radiosity::BakeOutcome blind = radiosity::bake(soup.view(), soup.materials, options);
     REQUIRE(ours.baked);
     REQUIRE(blind.baked);
-    CHECK(apart(ours, blind) > 0.02);
+    CHECK(apart(ours, blind) > 0.01);                                 // ten times what a caster of the same triangles may change
+    CHECK(blind.baked->audit.leaves < 4 * ours.baked->audit.leaves);  // light that no ray finds is no reason to look for it without end
   }
 }
 

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+// A sun that is a sphere far away: its distance tells nothing, as long as it looks the same.
+#include "catch.hpp"
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <numbers>
+#include <random>
+#include <sstream>
+#include <string>
+#include <utility>
+
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+#include <radiosity/camera/gather_picture.hpp>
+#include <radiosity/camera/mesh_picture.hpp>
+#include <radiosity/picture/final_gather.hpp>
+#include <radiosity/radiosity.hpp>
+#include <radiosity/result/outcome.hpp>
+#include <radiosity/scene/options.hpp>
+
+#include "apps/scene_file.hpp"
+
+namespace {
+
+// A block on the ground, lit by a sun that is a quarter of a degree wide.
+std::string block_under_sun(const glm::dvec3& block, const glm::dvec3& to_sun, double distance, double reflectance) {
+  const glm::dvec3 sun = distance * to_sun;
+  std::ostringstream out;
+  out.precision(17);
+  out << "material ground reflectance 0.5 0.4 0.3\nmaterial white reflectance 0.7\n"
+      << "material sun reflectance " << reflectance << " emission 6e7\n"
+      << "polygon ground material ground vertex -20 -20 0 vertex 20 -20 0 vertex 20 20 0 vertex -20 20 0\n"
+      << "box block material white from 0 0 0 to " << block.x << ' ' << block.y << ' ' << block.z << '\n'
+      << "sphere sun material sun center " << sun.x << ' ' << sun.y << ' ' << sun.z << " radius " << 0.0022 * distance << '\n'
+      << "camera c eye -9 -12 7 target 1 1 1 fov 60\n";
+  return out.str();
+}
+
+struct Shown {
+  radiosity::Picture picture;
+  std::vector<radiosity::SurfaceMean> means;
+};
+
+Shown shown(const std::string& text) {
+  apps::SceneResult parsed = apps::parse_scene(text);
+  REQUIRE(parsed.file);
+  radiosity::Options options;
+  options.epsilon = 0.01;
+  options.min_area = 2e-4;
+  options.audit_points = 0;
+  radiosity::Outcome outcome = radiosity::solve(parsed.file->scene, options);
+  REQUIRE(outcome.solution);
+  const radiosity::FinalGather light{parsed.file->scene, outcome.solution->mesh, outcome.solution->frame};
+  const radiosity::View view = radiosity::make_view(parsed.file->cameras.front(), {60, 45});
+  return {radiosity::draw(light, view, 1.0).value(), outcome.solution->audit.surfaces};
+}
+
+}  // namespace
+
+TEST_CASE("under a sun that looks the same the picture and all radiosities are the same, however far it is") {
+  const auto seed = std::random_device{}();
+  INFO("seed " << seed);
+  std::mt19937_64 random{seed};
+  const auto between = [&](double a, double b) { return std::uniform_real_distribution<double>{a, b}(random); };
+  for (int round = 0; round < 4; ++round) {
+    const glm::dvec3 block{between(1.0, 4.0), between(1.0, 4.0), between(0.5, 4.0)};
+    const double height = between(0.3, 1.3), azimuth = between(0.0, 2.0 * std::numbers::pi);
+    const glm::dvec3 to_sun{std::cos(height) * std::cos(azimuth), std::cos(height) * std::sin(azimuth), std::sin(height)};
+    const double distance = std::pow(10.0, between(5.0, 7.5)), reflectance = round % 2 == 0 ? 0.0 : 0.8;
+    CAPTURE(round, distance, reflectance, block.x, block.y, block.z, height, azimuth);
+    // From the nearer one rays diverge by a thousandth over the ground.
+    const Shown near = shown(block_under_sun(block, to_sun, 3e4, reflectance));
+    const Shown far = shown(block_under_sun(block, to_sun, distance, reflectance));
+    double off = 0.0, all = 0.0;
+    for (std::size_t i = 0; i < near.picture.radiosity.size(); ++i) {
+      const glm::dvec3 a{near.picture.radiosity[i]}, b{far.picture.radiosity[i]};
+      off += glm::dot(a - b, a - b);
+      all += glm::dot(a, a);
+    }
+    CHECK(std::sqrt(off / all) < 0.02);
+    REQUIRE(near.means.size() == far.means.size());
+    for (std::size_t k = 0; k < near.means.size(); ++k) {
+      CAPTURE(k);
+      if (near.means[k].name == "sun") { continue; }
+      const glm::dvec3 a{near.means[k].radiosity}, b{far.means[k].radiosity};
+      CHECK(glm::length(a - b) <= 0.05 * glm::length(a));
+    }
+  }
+}
