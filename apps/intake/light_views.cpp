@@ -45,7 +45,7 @@ LightViews::LightViews(const radiosity::Scene& scene) : objects_(radiosity::plac
   for (std::size_t i = 0; i < std::min(most_points, shining.size()); ++i) {
     const radiosity::InputSurface& surface = *shining[i * shining.size() / std::min(most_points, shining.size())];
     const raycast::PlacedObject& object = objects_.object(surface.object);
-    points_.push_back({surface.object, object.project(surface.sheet, object.bounds().centre())});
+    points_.push_back({surface.object, surface.sheet, object.project(surface.sheet, object.bounds().centre())});
   }
   for (std::uint32_t o = 0; o < power.size(); ++o) {
     if (power[o] > 0.0) { lamps_.push_back(o); }
@@ -59,8 +59,10 @@ LightViews::LightViews(const radiosity::Scene& scene) : objects_(radiosity::plac
 
 bool LightViews::lit(std::uint32_t object, const raycast::SurfacePoint& at) const {
   return std::any_of(points_.begin(), points_.end(), [&](const LampPoint& lamp) {
-    const glm::dvec3 way = lamp.at.position - at.position;
-    return lamp.object == object || (glm::dot(way, at.normal) > 0.0 && glm::dot(way, lamp.at.normal) < 0.0 &&
+    const raycast::PlacedObject& shape = objects_.object(lamp.object);
+    const raycast::SurfacePoint on = shape.flat() ? lamp.at : shape.project(lamp.sheet, at.position);  // of a round lamp the nearest point
+    const glm::dvec3 way = on.position - at.position;
+    return lamp.object == object || (glm::dot(way, at.normal) > 0.0 && glm::dot(way, on.normal) < 0.0 &&
                                      !objects_.occluded({at.position, way}, object, lamp.object));
   });
 }

@@ -43,7 +43,7 @@ class LightViews {
 
  private:
   struct LampPoint {
-    std::uint32_t object = 0;
+    std::uint32_t object = 0, sheet = 0;
     raycast::SurfacePoint at;
   };
 

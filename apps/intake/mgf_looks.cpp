@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "apps/intake/mgf.hpp"
 
+#include <algorithm>
 #include <vector>
 
 #include "apps/intake/mgf_color.hpp"
@@ -38,12 +39,14 @@ std::uint32_t Looks::material() {
 }
 
 void Looks::chromaticity(const Line& line, Errors& errors) {
-  const Chroma given{number(line, 1, errors), number(line, 2, errors)};
-  if (given.x >= 0.0 && given.y > 1e-6 && given.x + given.y <= 1.0) {
-    colors_.current() = given;
-  } else {
-    errors.add(line.place(1), "expected a chromaticity, x and y above 0 with a sum of at most 1");
+  constexpr double least_y = 0.01;  // what has less has next to no luminance
+  Chroma given{number(line, 1, errors), number(line, 2, errors)};
+  if (!(given.x >= 0.0 && given.y >= 0.0 && given.x + given.y <= 1.0)) {
+    return errors.add(line.place(1), "expected a chromaticity, x and y from 0 on with a sum of at most 1");
   }
+  if (given.y < least_y) { notes_.add("a chromaticity with less than .01 of y, which nothing has, is taken as one with that", at(line)); }
+  given.y = std::max(given.y, least_y);
+  colors_.current() = given;
 }
 
 void Looks::temperature(const Line& line, Errors& errors) {
@@ -56,10 +59,7 @@ void Looks::spectrum(const Line& line, Errors& errors) {
   const double first = number(line, 1, errors), last = number(line, 2, errors);
   if (!(first < last)) { return errors.add(line.place(1), "expected two wavelengths in nm, the shorter one first"); }
   std::vector<double> values;
-  for (std::size_t i = 3; i < line.words.size(); ++i) {
-    values.push_back(number(line, i, errors));
-    if (values.back() < 0.0) { return errors.add(line.place(i), "expected a number from 0 on, found " + mesh_file::shown(line.word(i))); }
-  }
+  for (std::size_t i = 3; i < line.words.size(); ++i) { values.push_back(number(line, i, errors)); }
   if (values.size() < 2) { return errors.add(line.place(line.words.size()), "a spectrum has at least two values"); }
   const glm::dvec3 xyz = xyz_of_samples(values, first, last);
   if (!(xyz.y > 1e-6 * (xyz.x + xyz.y + xyz.z))) { return errors.add(line.place(3), "nothing of this spectrum is seen"); }

@@ -150,12 +150,15 @@ class SceneMaker {
     radiosity::IntakeOptions options;
     options.two_sided = options_.two_sided;
     options.merge = options_.merge;
-    const std::vector<radiosity::Material>& materials = file_.scene.materials;
-    const bool any_lamp = std::any_of(materials.begin(), materials.end(), [](const auto& m) { return !radiosity::is_black(m.emission); });
-    options.sides_unknown = sides_unknown_ && !any_lamp;
+    options.sides_unknown = sides_unknown_;
     options.eyes = eyes_;
     for (const radiosity::Camera& camera : file_.cameras) { options.eyes.push_back(camera.eye); }
     for (const ModelLight& light : model_.lights) { options.eyes.push_back(light.position); }
+    for (const radiosity::SceneObject& object : model_.objects) {
+      const bool shines = std::any_of(object.material.begin(), object.material.end(),
+                                      [&](std::uint32_t m) { return !radiosity::is_black(file_.scene.materials[m].emission); });
+      if (shines) { options.eyes.push_back(radiosity::placed_bounds(*object.shape, object.placement).centre()); }
+    }
     const radiosity::PolygonView view{model_.positions, model_.corners, model_.first_corner, model_.material,
                                       model_.group,     model_.groups,  two_sided_};
     radiosity::Intake intake = radiosity::take_in(view, file_.scene.materials, options);

@@ -9,9 +9,12 @@
 #include <vector>
 
 #include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 
 #include <raycast/box.hpp>
 #include <raycast/inline.hpp>
+#include <raycast/scene.hpp>
 
 #include <radiosity/scene/material.hpp>
 #include <radiosity/scene/scene.hpp>
@@ -98,6 +101,18 @@ HALFLIGHT_INLINE raycast::Box worth_seeing(const Scene& scene) {
   return !things.empty() && all.diameter() > 2.0 * rest.diameter() ? rest : all;
 }
 
+// Of the rays of a coarse picture, the share that meet the front of a surface first.
+HALFLIGHT_INLINE double share_of_fronts(const raycast::Scene& objects, const Camera& camera) {
+  constexpr std::uint32_t across = 24, down = 18;
+  const View view = make_view(camera, {across, down});
+  std::uint32_t fronts = 0;
+  for (std::uint32_t i = 0; i < across * down; ++i) {
+    const auto hit = objects.closest({view.eye, view.direction(i % across + 0.5, i / across + 0.5)});
+    fronts += hit && hit->front ? 1u : 0u;
+  }
+  return static_cast<double>(fronts) / (across * down);
+}
+
 }  // namespace detail
 
 HALFLIGHT_INLINE Camera automatic_camera(const Scene& scene) {
@@ -105,11 +120,29 @@ HALFLIGHT_INLINE Camera automatic_camera(const Scene& scene) {
   Camera camera;
   camera.name = "automatic";
   camera.field_of_view = 40.0;
-  camera.forward = glm::normalize(glm::dvec3(0.45, 1.0, -0.4));
+  const glm::dvec3 usual = glm::normalize(glm::dvec3(0.45, 1.0, -0.4));
   // The bounding sphere touches the sides of the narrower, vertical opening of a 4:3 picture.
   const double vertical = std::atan(0.75 * std::tan(0.5 * camera.field_of_view * std::numbers::pi / 180.0));
   const double radius = 0.5 * bounds.diameter();
-  camera.eye = bounds.centre() - camera.forward * (radius / std::sin(vertical));
+  const auto look = [&](const glm::dvec3& forward) {
+    camera.forward = forward;
+    camera.eye = bounds.centre() - forward * (radius / std::sin(vertical));
+  };
+  look(usual);
+  // Into a room that is open on one side one looks from there, not through the backs of its walls.
+  const raycast::Scene objects{placed_objects(scene)};
+  constexpr double clearly_more = 0.15;
+  double most = detail::share_of_fronts(objects, camera) + clearly_more;
+  glm::dvec3 best = usual;
+  for (const glm::dvec2& to : {glm::dvec2{-usual.y, usual.x}, glm::dvec2{-usual.x, -usual.y}, glm::dvec2{usual.y, -usual.x}}) {
+    look({to.x, to.y, usual.z});
+    const double share = detail::share_of_fronts(objects, camera);
+    if (share > most) {
+      most = share;
+      best = camera.forward;
+    }
+  }
+  look(best);
   return camera;
 }
 

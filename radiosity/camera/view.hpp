@@ -54,8 +54,8 @@ struct View {
 [[nodiscard]] View make_view(const Camera& camera, const PictureSize& size);
 
 // Looks at the whole scene from outside, slightly from above (z is up). Back faces are not drawn, so this looks into a
-// room as into a doll's house. A lamp far outside, beside which all else would look less than half as large, is left out
-// of the view. Depends on nothing but bounds, and on what shines.
+// room as into a doll's house; from the one of four sides from which clearly more fronts are seen first, if there is one. A lamp far
+// outside, beside which all else would look less than half as large, is left out of the view.
 [[nodiscard]] Camera automatic_camera(const Scene& scene);
 
 }  // namespace radiosity

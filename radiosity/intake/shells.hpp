@@ -44,6 +44,7 @@ class Shells {
   void find_roles();
 
   [[nodiscard]] std::span<const Component> components() const { return components_; }
+  [[nodiscard]] bool shines(const Component& shell) const;
   // The component is a lamp that lies on a surface. `turn`: away from that. `one_sided`: what looks into it is not seen.
   void lay_lamp(std::uint32_t component, bool turn, bool one_sided);
   void turn(std::uint32_t component);
@@ -90,7 +91,6 @@ class Shells {
   // other way in it, or has things in it, is a room. Where less is filled, a shell that looks outwards at things which all look inwards is
   // a room of a model that is inside out; this only where no other room is known.
   void find_nested_rooms(bool room_known);
-  [[nodiscard]] bool shines(const Component& shell) const;
   // Another shell as a whole; where no shell is around both, its middle is enough.
   [[nodiscard]] bool holds_another(const Component& shell, const Component* around) const;
   // Does the shell hold things that look the other way, as those of a room do, and that leave half of it free, so that it is not the outer

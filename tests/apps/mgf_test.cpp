@@ -100,6 +100,9 @@ TEST_CASE("mgf: spectra, temperatures and mixtures have the chromaticities that 
   const auto of = [](double x, double y) { return 0.5 * apps::intake::mgf::color_of(x, y); };
   CHECK(glm::length(reflects("cspec 300 900 .3 .3 .3") - glm::dvec3(0.5)) < 1e-12);  // white is even
   CHECK(glm::length(reflects("cspec 380 780 0 .3 .9 .1") - reflects("cspec 380 780 0 3 9 1")) < 1e-12);
+  CHECK(glm::length(reflects("cxy .4 0") - of(0.4, 0.01)) < 1e-12);
+  // The second component of daylight (CIE 15) is negative at long wavelengths.
+  CHECK(glm::length(reflects("cspec 400 700 40 30 20 10 0 -2 -1") - reflects("cspec 400 700 80 60 40 20 0 -4 -2")) < 1e-12);
   for (const auto& [kelvin, x, y] : {std::array{2856.0, 0.4476, 0.4074}, {6500.0, 0.3135, 0.3237}}) {
     const glm::dvec3 xyz = apps::intake::mgf::xyz_of_temperature(kelvin);
     const double sum = xyz.x + xyz.y + xyz.z;
@@ -240,7 +243,7 @@ TEST_CASE("mgf: what is wrong is told with its place, what is not read is told")
       {"xf\n", ":1:1: error: this xf ends nothing"},
       {"xf -q\nxf\n", ":1:4: error: expected -t, -rx, -ry, -rz, -s, -mx, -my, -mz, -i or -a, found '-q'"},
       {"xf -a 1e9\nxf\n", ":1:7: error: expected a number from 0 to 100000, found '1e9'"},
-      {"cxy 0.5 0.7\n", ":1:5: error: expected a chromaticity, x and y above 0 with a sum of at most 1"},
+      {"cxy 0.5 0.7\n", ":1:5: error: expected a chromaticity, x and y from 0 on with a sum of at most 1"},
       {"rd -1\n", ":1:4: error: expected a number from 0 on, found '-1'"},
       {"xf -a 100000 -t 1 0 0\nxf -a 100 -t 0 1 0\n# nothing\no\nxf\nxf\n", "copies make more than"}};
   for (const auto& [text, sentence] : wrong) {

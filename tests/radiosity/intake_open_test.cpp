@@ -77,6 +77,24 @@ TEST_CASE("intake: where nothing tells the side, open surfaces reflect on both, 
   }
 }
 
+TEST_CASE("intake: leaves beside a lamp reflect on both sides, the lamp shines on its own alone") {
+  const unsigned seed = std::random_device{}();
+  CAPTURE(seed);
+  std::mt19937 random(seed);
+  const auto number = [&](double lo, double hi) { return std::uniform_real_distribution(lo, hi)(random); };
+  Soup soup;
+  constexpr int leaves = 50;
+  for (int i = 0; i < leaves; ++i) {
+    const glm::dvec3 p{number(-1, 1), number(-1, 1), number(0, 2)}, a{number(0.05, 0.1), 0, number(0, 0.1)}, b{0, number(0.05, 0.1), 0.02};
+    soup.polygon(i % 2 == 0 ? std::vector<glm::dvec3>{p, p + a, p + b} : std::vector<glm::dvec3>{p, p + b, p + a});
+  }
+  const double of_leaves = soup.area();
+  soup.polygon({{-1, -1, 4}, {-1, 1, 4}, {1, 1, 4}, {1, -1, 4}}, 1);
+  const radiosity::Intake taken = soup.take_in(unknown);
+  CHECK(measure(taken.objects).area == Approx(2.0 * of_leaves + 4.0).epsilon(1e-6));
+  CHECK(count_of(taken, ChangeKind::open) == leaves);
+}
+
 TEST_CASE("intake: where nothing tells the side, the walls of an open room and bodies with small holes keep theirs") {
   Soup box;
   soup::add_box(box, {0, 0, 0}, {4, 5, 3}, 1, true);

@@ -275,6 +275,29 @@ TEST_CASE("the automatic view shows the whole scene") {
   }
 }
 
+TEST_CASE("the automatic view looks into a room that is open on one side from there") {
+  for (int open = 0; open < 4; ++open) {
+    CAPTURE(open);
+    const auto turned = [&](const glm::dvec3& p) {
+      const double a = 0.5 * std::numbers::pi * open;
+      return glm::dvec3{p.x * std::cos(a) - p.y * std::sin(a), p.x * std::sin(a) + p.y * std::cos(a), p.z};
+    };
+    std::vector<radiosity::SceneObject> walls;
+    const auto add = [&](std::vector<glm::dvec3> corners) {
+      for (glm::dvec3& p : corners) { p = turned(p); }
+      walls.push_back(scenes::object("wall", scenes::polygon(std::move(corners)), 0));
+    };
+    // Open to -y, before it is turned.
+    add({{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}});
+    add({{-1, -1, 2}, {-1, 1, 2}, {1, 1, 2}, {1, -1, 2}});
+    add({{-1, 1, 0}, {1, 1, 0}, {1, 1, 2}, {-1, 1, 2}});
+    add({{-1, -1, 0}, {-1, 1, 0}, {-1, 1, 2}, {-1, -1, 2}});
+    add({{1, -1, 0}, {1, -1, 2}, {1, 1, 2}, {1, 1, 0}});
+    const glm::dvec3 forward = radiosity::automatic_camera(scene_of(std::move(walls))).forward;
+    CHECK(glm::dot(forward, turned({0, 1, 0})) > 0.4);  // it looks in askew
+  }
+}
+
 TEST_CASE("the automatic view shows a lamp near the things it lights, and the same as without one far away, or a wide ground") {
   const unsigned seed = std::random_device{}();
   CAPTURE(seed);
