@@ -39,12 +39,12 @@ std::uint32_t Looks::material() {
 }
 
 void Looks::chromaticity(const Line& line, Errors& errors) {
-  constexpr double least_y = 0.01;  // what has less has next to no luminance
+  constexpr double least_y = 0.004;  // of spectral colours 0.0048, at 410 nm
   Chroma given{number(line, 1, errors), number(line, 2, errors)};
   if (!(given.x >= 0.0 && given.y >= 0.0 && given.x + given.y <= 1.0)) {
     return errors.add(line.place(1), "expected a chromaticity, x and y from 0 on with a sum of at most 1");
   }
-  if (given.y < least_y) { notes_.add("a chromaticity with less than .01 of y, which nothing has, is taken as one with that", at(line)); }
+  if (given.y < least_y) { notes_.add("a chromaticity with y below .004 is none that light has: taken with y = .004", at(line)); }
   given.y = std::max(given.y, least_y);
   colors_.current() = given;
 }

@@ -150,7 +150,10 @@ class SceneMaker {
     radiosity::IntakeOptions options;
     options.two_sided = options_.two_sided;
     options.merge = options_.merge;
-    options.sides_unknown = sides_unknown_;
+    const std::vector<radiosity::Material>& materials = file_.scene.materials;
+    const bool any_lamp = std::any_of(materials.begin(), materials.end(), [](const auto& m) { return !radiosity::is_black(m.emission); });
+    options.open_sides_unknown = sides_unknown_;
+    options.sides_unknown = sides_unknown_ && !any_lamp;
     options.eyes = eyes_;
     for (const radiosity::Camera& camera : file_.cameras) { options.eyes.push_back(camera.eye); }
     for (const ModelLight& light : model_.lights) { options.eyes.push_back(light.position); }

@@ -37,7 +37,9 @@ struct IntakeOptions {
   double weld = 1e-6;
   bool merge = true;       // coplanar neighbours of one material
   bool two_sided = false;  // all surfaces that enclose nothing
-  // The file does not tell which side of a surface is seen: those that are open have two, but for lamps and the walls of a room.
+  // The file does not tell which side of an open surface is seen: they have two, but for lamps and the walls of a room.
+  bool open_sides_unknown = false;
+  // Neither the file nor the light tells which side of any surface is seen: as above, and a bare room may have been wound outwards.
   bool sides_unknown = false;
   // Points that must be seen, such as the eyes of cameras: a closed shell around one of them, or around a lamp, is a room.
   std::vector<glm::dvec3> eyes = {};

@@ -316,6 +316,23 @@ TEST_CASE("a room whose only lamp is a ball without polygons is seen and lit wit
   }
 }
 
+TEST_CASE("a box with a screen sunk into its front is no room, though the file tells no sides") {
+  apps::Model model;
+  model.groups = {"box", "screen"};
+  model.materials = {{"grey", radiosity::Color(0.5)}, {"screen", radiosity::Color(0.1), radiosity::Color(5.0)}};
+  model.tells_sides = false;
+  add_box(model, {0, 0, 0}, {1, 1, 1}, false);
+  add_box(model, {0.2, 0.2, 0.95}, {0.8, 0.8, 1.05}, false, 1);
+  std::vector<std::string> faults;
+  const auto taken = apps::to_scene(std::move(model), apps::UpAxis::z, {}, faults);
+  REQUIRE(taken);
+  const raycast::Scene objects{radiosity::placed_objects(taken->scene)};
+  const auto hit = objects.closest({{-1, 0.5, 0.5}, {2, 0, 0}});
+  REQUIRE(hit);
+  CHECK(hit->front);
+  CHECK(hit->t == Approx(0.5));
+}
+
 TEST_CASE("a ball that shines lights what is beside and below it as well as what is above it") {
   const radiosity::Scene scene{
       {{"grey", radiosity::Color(0.5), radiosity::Color(0.0)}, {"lamp", radiosity::Color(0.0), radiosity::Color(1.0)}},

@@ -16,6 +16,7 @@
 #include "scenes.hpp"
 #include "solved.hpp"
 
+// What shines brightest is a ceiling that lamps hide from most of the room.
 TEST_CASE("a lamp close under a ceiling, hung or touching it, gives a closed room no more light than it sends", "[accuracy]") {
   const auto seed = std::random_device{}();
   INFO("seed " << seed);

@@ -178,7 +178,6 @@ TEST_CASE("tubes that touch a ceiling light it as they are long, and the room wi
   }
 }
 
-// What shines brightest is a ceiling that lamps hide from most of the room.
 namespace {
 
 // A room of walls, of which the one at y = 0 has a window, and a lamp outside. Reflectance .7; material 1 shines.
