@@ -46,6 +46,10 @@ inline constexpr double share_of_walls = 0.47;
 // A few walls on a wide face, of a tent or a house on its ground, cut it though they are short beside it: between them it may be dark. What
 // is thicker than this part of its foot is no wall; to cut along a block does more harm, by long narrow patches, than good.
 inline constexpr double share_of_few_walls = 0.07, thickness_of_wall = 0.2;
+// What lies before a face and parallel to it hides it when it is no farther from it than this part of its own diameter. Its outline cuts
+// a part of the face if it is at least this share of that part: less is lost under what is smaller than by long narrow patches beside it.
+// Triangles of layers of fine meshes, smaller than this part of the scene's diameter, do not cut each other.
+inline constexpr double close_gap = 0.02, share_hidden = 0.03, least_outline = 0.02;
 inline constexpr std::ptrdiff_t least_lines = 2, few_lines = 12;  // one wall alone encloses nothing
 
 // A line across a face and the intervals of it on which walls stand.
@@ -53,7 +57,8 @@ struct WallLine {
   glm::dvec3 point{0.0}, normal{0.0};  // the plane of the walls
   glm::dvec3 along{0.0};               // unit
   std::vector<std::pair<double, double>> intervals;
-  bool thin = true;  // are all of them?
+  bool thin = true;     // are all of them?
+  double hidden = 0.0;  // of an edge of what lies close before the face: the area of that; 0 of walls
 
   [[nodiscard]] double at(const glm::dvec3& p) const { return glm::dot(p - point, along); }
   // Length of what the walls cover between two places.
@@ -131,7 +136,7 @@ HALFLIGHT_INLINE void add_wall(const WallFace& face, const WallFace& wall, doubl
   const bool thin = wall.thickness <= thickness_of_wall * (to - from);
   for (WallLine& line : lines) {
     const double cosine = glm::dot(line.normal, wall.normal);
-    if (std::abs(cosine) < 1.0 - 1e-12 || std::abs(glm::dot(line.normal, w[0] - line.point)) > tolerance) { continue; }
+    if (line.hidden > 0.0 || std::abs(cosine) < 1.0 - 1e-12 || std::abs(glm::dot(line.normal, w[0] - line.point)) > tolerance) { continue; }
     const double turn = glm::dot(along, line.along) < 0.0 ? -1.0 : 1.0;
     const double shift = line.at(w[0]);
     line.intervals.emplace_back(shift + std::min(turn * from, turn * to), shift + std::max(turn * from, turn * to));
@@ -139,6 +144,29 @@ HALFLIGHT_INLINE void add_wall(const WallFace& face, const WallFace& wall, doubl
     return;
   }
   lines.push_back({w[0], wall.normal, along, {{from, to}}, thin});
+}
+
+// Adds the outline of `sheet` if it lies parallel to `face` and close before it, as a lamp that hangs under a ceiling: the face is dark
+// behind it and bright beside it.
+HALFLIGHT_INLINE void add_outline(const WallFace& face, const WallFace& sheet, double tolerance, std::vector<WallLine>& lines) {
+  if (std::abs(glm::dot(face.normal, sheet.normal)) < 1.0 - 1e-6) { return; }
+  for (const glm::dvec3& p : sheet.polygon) {
+    const double height = glm::dot(face.normal, p - face.polygon[0]);
+    if (!(height > tolerance && height <= close_gap * sheet.box.diameter())) { return; }
+  }
+  for (std::size_t i = 0; i < sheet.polygon.size(); ++i) {
+    const glm::dvec3& a = sheet.polygon[i];
+    const glm::dvec3 edge = sheet.polygon[(i + 1) % sheet.polygon.size()] - a;
+    const double length = glm::length(edge);
+    if (length > tolerance) {
+      lines.push_back({a,
+                       glm::normalize(glm::cross(edge, face.normal)),
+                       edge / length,
+                       {{0.0, length}},
+                       false,
+                       glm::length(vector_area(sheet.polygon))});
+    }
+  }
 }
 
 // Cuts one face along its lines.
@@ -155,7 +183,9 @@ HALFLIGHT_INLINE void cut_along(SurfaceBRep& brep, brep::FaceId face, std::vecto
       };
       const double p = line.at(point(cut.a, cut.on_a));
       const double q = line.at(point(cut.b, cut.on_b));
-      const double least = few && line.thin ? share_of_few_walls : share_of_walls;
+      const bool outline = line.hidden > 0.0;
+      if (outline && line.hidden < share_hidden * glm::length(vector_area(corner_polygon(b, part)))) { continue; }
+      const double least = outline || (few && line.thin) ? share_of_few_walls : share_of_walls;
       if (line.covered(std::min(p, q), std::max(p, q)) >= least * std::abs(p - q)) { return cut; }
     }
     return brep::Cut{};
@@ -190,7 +220,11 @@ HALFLIGHT_INLINE WallPairs wall_pairs(const std::vector<Surface>& surfaces, doub
   for (std::uint32_t o = 0; o < surfaces.size(); ++o) {
     if (!surfaces[o].object->flat() || covered[o]) { continue; }
     result.order.push_back(o);
-    boxes.push_back(surfaces[o].object->bounds());
+    raycast::Box box = surfaces[o].object->bounds();
+    const double margin = close_gap * box.diameter();
+    box.extend(box.lo - margin);
+    box.extend(box.hi + margin);
+    boxes.push_back(box);
   }
   if (boxes.empty()) { return result; }
   const raycast::Bvh tree{boxes};
@@ -244,6 +278,9 @@ HALFLIGHT_INLINE std::size_t cut_at_walls(std::vector<Surface>& surfaces, double
       std::vector<detail::WallLine> lines;
       for (const std::uint32_t w : partners[o]) {
         for (const detail::WallFace& wall : walls[w]) {
+          const double size = wall.box.diameter();
+          if (!detail::boxes_meet(walls[o][k].box, wall.box, detail::close_gap * size)) { continue; }
+          if (size >= detail::least_outline * diameter) { detail::add_outline(walls[o][k], wall, tolerance, lines); }
           if (detail::boxes_meet(walls[o][k].box, wall.box, tolerance)) { detail::add_wall(walls[o][k], wall, tolerance, lines); }
         }
       }

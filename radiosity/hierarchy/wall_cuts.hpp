@@ -8,6 +8,9 @@
 // patch of its own, buried. Of thin walls that stand on a face along two to twelve lines, 7 % of a line is enough: under a tent
 // on a wide ground it may be dark.
 //
+// In the same way a face is cut along the outline of what lies parallel to it and close before it, as a lamp under a ceiling or a shelf
+// before a wall: a patch that reaches out from behind it would take light beside it and send a part of that light to the back of the lamp.
+//
 // Walls that are shorter than that do not divide a face; refinement finds the shadow at their feet. Invariant: the boundary stays valid,
 // each part lies on the sheet of its face.
 
@@ -20,8 +23,8 @@
 namespace radiosity {
 
 // Cuts the faces of flat objects, before any refinement. Objects of which more than ten million pairs of faces would have to be looked at
-// are left alone, and so are those that are covered by a duplicate. Time: pairs of objects whose bounds meet, of which no more than
-// `most_pairs` are looked at, and pairs of their faces. Returns how many objects were left whole because of either limit.
+// are left alone, and so are those that are covered by a duplicate. Time: pairs of objects whose bounds come close to each other, of which
+// no more than `most_pairs` are looked at, and pairs of their faces. Returns how many objects were left whole because of either limit.
 std::size_t cut_at_walls(std::vector<Surface>& surfaces, double diameter, std::size_t most_pairs = 30'000'000);
 
 // What cut_at_walls() did not do.

@@ -90,13 +90,15 @@ HALFLIGHT_INLINE void set_normals(const raycast::PlacedObject& object, SurfaceBR
   return std::min(1.0, much_larger * other / own);
 }
 
-// Of a face that was cut at a wall: does the wall stand between these two leaves, near their common corner v? Asked just above them.
-[[nodiscard]] HALFLIGHT_INLINE bool wall_between(const LeafLight& light, std::uint32_t a, std::uint32_t b, const glm::dvec3& v) {
+// Of a face that was cut: does a wall stand between these two leaves, near their common corner v, or does something hang close before one of
+// them alone? Asked just above them.
+[[nodiscard]] HALFLIGHT_INLINE bool parted(const LeafLight& light, std::uint32_t a, std::uint32_t b, const glm::dvec3& v) {
   constexpr double along = 0.01, above = 1e-3;
   const Node &from = light.hierarchy[a], &to = light.hierarchy[b];
   const glm::dvec3 lift = v + above * std::min(from.radius, to.radius) * from.normal;
   const glm::dvec3 p = lift + along * (from.centre - v), q = lift + along * (to.centre - v);
-  return light.objects->occluded({p, q - p});
+  const glm::dvec3 up = std::max(from.radius, to.radius) * from.normal;
+  return light.objects->occluded({p, q - p}) || light.objects->occluded({p, up}) != light.objects->occluded({q, up});
 }
 
 // Colours the half-edges of a face whose leaf is `own`.
@@ -121,7 +123,7 @@ HALFLIGHT_INLINE void colour_face(SurfaceBRep& brep, brep::FaceId f, std::uint32
       double weight = corner_angle(brep, l) * beside(light.hierarchy[own].area, light.exposure.area[node]);
       if (kind != Reconstruction::simple) { weight *= alike(brep.data(e).normal, brep.data(l).normal); }
       const bool cut = walls && brep.data(brep.face(l)).part == part && input_face(light.hierarchy, node) != root;
-      if (cut && wall_between(light, own, node, brep.data(brep.vertex(e)).position)) { continue; }
+      if (cut && parted(light, own, node, brep.data(brep.vertex(e)).position)) { continue; }
       sum += weight * light.radiosity[node];
       weights += weight;
     }

@@ -16,9 +16,9 @@
 //
 // Over a leaf with more than 64 times the area of a neighbour, the neighbour's light falls off long before the leaf ends: there w_l falls
 // with the neighbour's exposed area, else a bright spot beside it, or what a sliver without width says, would be spread over all of it.
-// The angle makes the average independent of how a T-vertex was connected. Faces of another material, and faces that
-// are buried under another object, do not count, nor do those beyond a wall that a face was cut at (wall_cuts.hpp), as far as it stands
-// there: a wall without thickness buries nothing, and light may differ by any factor across it. A corner with buried faces alone takes the
+// The angle makes the average independent of how a T-vertex was connected. Faces of another material, and faces that are buried under another
+// object, do not count, nor do those beyond a wall that a face was cut at (wall_cuts.hpp), as far as it stands there, or behind a lamp at
+// whose outline it was cut: neither buries anything, and light may differ by any factor beyond. A corner with buried faces alone takes the
 // mean of its face's others.
 // Constant, a buried face takes the mean of its weighted corners: a sliver of it may show at the foot of what buries it.
 

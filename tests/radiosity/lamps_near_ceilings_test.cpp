@@ -4,6 +4,7 @@
 #include <cmath>
 #include <random>
 
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 #include <radiosity/radiosity.hpp>
@@ -38,5 +39,41 @@ TEST_CASE("a lamp close under a ceiling, hung or touching it, gives a closed roo
     CAPTURE(round, side, gap, *audit.reflected_share, audit.row_sum.min, audit.row_sum.max);
     CHECK(audit.stored_rays > 0);
     CHECK(std::abs(audit.escaped) < 0.005);
+  }
+}
+
+// A patch of the ceiling that reaches out from behind the lamp would take light beside it and give a part of that to the lamp's back.
+TEST_CASE("a wide lamp close under a ceiling lights a floor as one that lies on the ceiling", "[accuracy]") {
+  const auto seed = std::random_device{}();
+  INFO("seed " << seed);
+  std::mt19937_64 random{seed};
+  const auto between = [&](double lo, double hi) { return std::uniform_real_distribution<double>{lo, hi}(random); };
+  for (int round = 0; round < 4; ++round) {
+    const glm::dvec3 size{between(3.0, 5.0), between(3.0, 5.0), between(2.3, 3.0)};
+    const glm::dvec2 extent{between(0.5, 0.7) * size.x, between(0.5, 0.7) * size.y};
+    const glm::dvec2 corner{between(0.1, 0.9) * (size.x - extent.x), between(0.1, 0.9) * (size.y - extent.y)};
+    const double gap = between(0.001, 0.01);
+    const auto floor_light = [&](double below) {
+      const double z = size.z - below;
+      radiosity::Scene scene;
+      scene.materials = {{"wall", radiosity::Color{0.8}, radiosity::Color{0.0}}, {"lamp", radiosity::Color{0.0}, radiosity::Color{10.0}}};
+      scene.objects = {scenes::object("room", scenes::box({0, 0, 0}, size), 0, true),
+                       scenes::object("lamp",
+                                      scenes::polygon({{corner.x, corner.y, z},
+                                                       {corner.x, corner.y + extent.y, z},
+                                                       {corner.x + extent.x, corner.y + extent.y, z},
+                                                       {corner.x + extent.x, corner.y, z}}),
+                                      1)};
+      radiosity::Options options;
+      options.audit_points = 0;
+      double light = 0.0;
+      for (const radiosity::SurfaceMean& surface : scenes::solved(scene, options).audit.surfaces) {
+        if (surface.name == "room.z0") { light = surface.radiosity.x; }
+      }
+      return light;
+    };
+    const double lying = floor_light(0.0), hung = floor_light(gap);
+    CAPTURE(round, size.x, size.y, size.z, extent.x, extent.y, corner.x, corner.y, gap, lying, hung);
+    CHECK(hung == Approx(lying).epsilon(0.002));
   }
 }
