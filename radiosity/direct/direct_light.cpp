@@ -161,7 +161,7 @@ HALFLIGHT_INLINE void DirectLight::take_samples(Lamp& lamp, bool fine, std::uint
 
 HALFLIGHT_INLINE DirectLight::DirectLight(const raycast::Scene& objects, const std::vector<Surface>& surfaces,
                                           const std::vector<Color>& emission, const LampLimits& limits)
-    : objects_{&objects}, lamp_of_(emission.size(), 0xffffffff), bodies_(objects.size()) {
+    : objects_{&objects}, true_objects_{&objects}, lamp_of_(emission.size(), 0xffffffff), bodies_(objects.size()) {
   for (std::uint32_t o = 0; o < objects.size(); ++o) { slack_ = std::max(slack_, 2.0 * objects.object(o).slack()); }
   std::vector<Candidate> candidates;
   double total = 0.0;
@@ -170,12 +170,15 @@ HALFLIGHT_INLINE DirectLight::DirectLight(const raycast::Scene& objects, const s
     std::vector<double> area(surfaces[s].object->sheet_count(), 0.0);
     for (const brep::FaceId f : brep::faces(surfaces[s].brep)) {
       const std::uint32_t sheet = surfaces[s].brep.data(f).sheet;
-      if (sheet != brep::no_sheet) { area[sheet] += glm::length(vector_area(corner_polygon(surfaces[s].brep, f))); }
+      if (sheet == brep::no_sheet) { continue; }
+      const Polygon corners = corner_polygon(surfaces[s].brep, f);
+      area[sheet] += glm::length(vector_area(corners));
+      if (!is_black(emission[surfaces[s].first_surface + sheet])) { continue; }
+      for (const glm::dvec3& p : corners) { dark.extend(p); }
     }
     for (std::uint32_t sheet = 0; sheet < area.size(); ++sheet) {
       total += area[sheet];
       const Color& e = emission[surfaces[s].first_surface + sheet];
-      if (is_black(e)) { dark.extend(surfaces[s].object->bounds()); }
       if (!is_black(e) && area[sheet] > 0.0) { candidates.push_back({{{s, {sheet}}}, e, brightest(e), area[sheet]}); }
     }
   }
@@ -216,6 +219,24 @@ HALFLIGHT_INLINE DirectLight::DirectLight(const raycast::Scene& objects, const s
       });
     }
   }
+}
+
+HALFLIGHT_INLINE glm::dvec3 DirectLight::lifted(std::uint32_t o, const glm::dvec3& x, const glm::dvec3& n) const {
+  constexpr std::uint32_t most_sheets = 64;
+  const double lift = bodies_[o].lift;
+  if (!(lift > 0.0)) { return x; }
+  glm::dvec3 above = x + lift * n;
+  const std::uint32_t sheets = true_objects_->object(o).sheet_count();
+  for (std::uint32_t sheet = 0; sheet < sheets && sheets <= most_sheets; ++sheet) {
+    const raycast::SurfacePoint beside = true_objects_->object(o).project(sheet, x);
+    const glm::dvec3 off = x - beside.position;
+    const double height = glm::dot(off, beside.normal);
+    constexpr double same = 1.0 - 1e-6;  // of normals: its own sheet, or one that goes on smoothly
+    if (glm::dot(off, off) < lift * lift && height >= -1e-3 * lift && glm::dot(n, beside.normal) < same) {
+      above += (lift - height) * beside.normal;
+    }
+  }
+  return above;
 }
 
 HALFLIGHT_INLINE std::vector<DirectLight::Candidate> DirectLight::join_alike(const std::vector<Candidate>& singles,

@@ -85,6 +85,9 @@ class DirectLight {
   [[nodiscard]] const raycast::Scene& objects() const { return *objects_; }
   [[nodiscard]] std::uint32_t whole(std::uint32_t o) const { return o < bodies_.size() ? o : whole_[o - bodies_.size()]; }
   [[nodiscard]] double lift(std::uint32_t o) const { return bodies_[o].lift; }
+  // A point of object o, lifted above these meshes where such stand in: along its normal, and at a concave edge along that of the sheet
+  // beyond it, too, for beside an edge that is round the point may lie between that sheet and the mesh before it.
+  [[nodiscard]] glm::dvec3 lifted(std::uint32_t o, const glm::dvec3& x, const glm::dvec3& n) const;
   // How far segments stay off flat surfaces on which they begin and end, so that these need no owners and single precision decides about
   // nearly all: by more than its error, in a scene of size 1 to 2. Where lamps are far, beside the size of all else, by less: then double
   // precision decides about more of them, and what stands on a floor has its shadow there.
@@ -126,6 +129,7 @@ class DirectLight {
   void take_samples(Lamp& lamp, bool fine, std::uint64_t seed) const;
 
   const raycast::Scene* objects_ = nullptr;
+  const raycast::Scene* true_objects_ = nullptr;  // without meshes that stand in
   double off_surface_ = 1e-5;
   double slack_ = detail::least_slack;  // heights below count as none: twice what faces that are not quite plane are off, if that is more
   // Where meshes stand in, objects_ points to this.

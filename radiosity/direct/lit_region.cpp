@@ -113,7 +113,7 @@ HALFLIGHT_INLINE double LitRegion::visible(std::size_t k, const glm::dvec3& x, c
       (!all_known && shadows > many_shadows && mostly_open(reach, x, n))) {
     return seen_share(reach, x, n, segments);
   }
-  const glm::dvec3 above = x + lift_ * n;  // the faces of a mesh that stands in for its own object
+  const glm::dvec3 above = lifted(x, n);  // the faces of a mesh that stands in for its own object
   const double all = unhidden(k, above, n);
   if (!(all > 0.0)) { return 0.0; }
   std::vector<detail::LampPart> left;

@@ -152,12 +152,16 @@ class LitRegion {
   void refine(Reach& reach, const glm::dvec3& x, const glm::dvec3& n, double& all, double& seen);
   const Survey& survey(Reach& reach);
 
+  // Above the meshes that stand in for its owner; x itself where none do.
+  const glm::dvec3& lifted(const glm::dvec3& x, const glm::dvec3& n);
+
   const DirectLight* light_;
   std::uint32_t owner_;
   glm::dvec3 normal_{0.0};  // 0 where it is not the same everywhere
   glm::dvec3 centre_{0.0};
   double radius_ = 0.0;
   double lift_ = 0.0;
+  glm::dvec3 last_{0.0}, last_normal_{0.0}, last_lifted_{0.0};  // what lifted() was asked last
   std::vector<Reach> reaches_;
   std::vector<char> facing_;
   std::vector<HalfSpace> cone_;

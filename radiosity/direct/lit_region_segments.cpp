@@ -35,10 +35,20 @@ inline constexpr std::size_t least_carrying = 4;  // samples of a lamp that face
 
 }  // namespace detail
 
+HALFLIGHT_INLINE const glm::dvec3& LitRegion::lifted(const glm::dvec3& x, const glm::dvec3& n) {
+  if (!(lift_ > 0.0)) { return last_lifted_ = x; }
+  if (x != last_ || n != last_normal_) {
+    last_ = x;
+    last_normal_ = n;
+    last_lifted_ = light_->lifted(owner_, x, n);
+  }
+  return last_lifted_;
+}
+
 HALFLIGHT_INLINE LitRegion::Asked16 LitRegion::ask16(Reach& reach, const glm::dvec3& x, const glm::dvec3& n,
                                                      std::span<const LampSample> samples) {
   const double off_surface = light_->off_surface();
-  const glm::dvec3 from = x + std::max(lift_, off_surface) * n;
+  const glm::dvec3 from = lift_ > 0.0 ? lifted(x, n) : x + off_surface * n;
   const bool curved = owner_ != raycast::no_object && !light_->objects_->object(owner_).flat();  // and convex, or a mesh would stand in
   const std::uint32_t source = curved ? owner_ : raycast::no_object;
   Asked16 result;

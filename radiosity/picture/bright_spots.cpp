@@ -223,7 +223,7 @@ HALFLIGHT_INLINE void BrightSpots::send16(const DirectLight& direct, std::uint32
     const double left = (rest * groups_[g].power - (spot.until - spot.power)) / spot.power;  // of the first number: it is the fourth
     const Target from = point_of(spot, u[3], std::clamp(left, 0.0, 1.0));
     const double lift = direct.lift(from.object);  // above a mesh that stands in for it, which its true surface may lie behind
-    const glm::dvec3 above = from.point.position + lift * from.point.normal;
+    const glm::dvec3 above = direct.lifted(from.object, from.point.position, from.point.normal);
     rays.set(k, {above, reach * cosine_direction(from.point.normal, u[1], u[2])}, lift > 0.0 ? raycast::no_object : from.object,
              raycast::no_object, from.sheet);
     group[k] = static_cast<std::uint32_t>(g);

@@ -77,7 +77,7 @@ HALFLIGHT_INLINE PhotonGrid FinalGather::send_lamp_photons(const std::vector<Sur
   const auto meet = [&](const raycast::SurfacePoint& from, const glm::dvec3& direction, std::uint32_t object,
                         std::uint32_t sheet) -> std::optional<Landing> {
     const double lift = direct_.lift(object);
-    const raycast::Segment ray{from.position + lift * from.normal, direction * objects().diameter()};
+    const raycast::Segment ray{direct_.lifted(object, from.position, from.normal), direction * objects().diameter()};
     const auto hit = direct_.objects().closest(ray, lift > 0.0 ? raycast::no_object : object, sheet);
     if (!hit || !hit->front) { return std::nullopt; }
     const Met landed = met(*hit, ray);
@@ -273,7 +273,7 @@ HALFLIGHT_INLINE FinalGather::Indirect FinalGather::indirect(const Place& place,
   const Sobol4 sequence{1, key}, aiming{2, key};
   const double lift = direct_.lift(place.object);
   Sender sender{place,
-                place.point.position + lift * place.point.normal,
+                direct_.lifted(place.object, place.point.position, place.point.normal),
                 lift > 0.0 ? raycast::no_object : place.object,
                 place.surface - lookup_.surface(place.object, 0),
                 {spots_, place.point}};

@@ -148,7 +148,7 @@ HALFLIGHT_INLINE void NearLight::light_by_lamps(Paths& paths, std::span<PathNumb
     arriving[k] = chosen.lamp->exitance * (ratio / (1.0 + ratio));
     const double lift = direct_->lift(object);
     const bool curved = !(lift > 0.0) && !lookup_->objects().object(object).flat();
-    const glm::dvec3 from = at.position + std::max(lift, off_surface) * at.normal;
+    const glm::dvec3 from = lift > 0.0 ? direct_->lifted(object, at.position, at.normal) : at.position + off_surface * at.normal;
     const glm::dvec3 to = sample.position + (sample.end.owner == raycast::no_object ? off_surface : 0.0) * sample.normal;
     segments.set(k, {from, to - from}, curved ? object : raycast::no_object, sample.end.owner);
   });

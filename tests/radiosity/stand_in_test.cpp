@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <memory>
+#include <numbers>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -21,6 +23,7 @@
 #include <radiosity/support/random.hpp>
 
 #include "catch.hpp"
+#include "lit_world.hpp"
 #include "scenes.hpp"
 
 namespace {
@@ -114,4 +117,38 @@ TEST_CASE("meshes that stand in know the sheets of solids that share a surface",
     CHECK(a->sheet != exact.closest({-3.0 * d, 3.0 * d})->sheet);
   }
   CHECK(std::min(met[0], met[1]) > 100);
+}
+
+// The mesh before the wall of a round hole has flat faces: beside its foot points of the bottom lie behind them, and saw their backs.
+TEST_CASE("what is seen from the bottom of a round hole, at its very edge, are fronts, and it is as bright there as beside it", "[lamps]") {
+  const auto seed = static_cast<std::uint64_t>(GENERATE(take(4, random(1, 1'000'000))));
+  radiosity::Random random{seed, 1};
+  CAPTURE(seed);
+  const auto between = [&](double a, double b) { return a + (b - a) * random.uniform(); };
+  const double radius = between(0.3, 0.8);
+  raycast::CsgNode node{{}, "block", raycast::CsgOperation::subtract, {}, {}};
+  node.parts.push_back({scenes::box({-1, -1, -0.5}, {1, 1, 0.4}), "box", {}, {}, {}});
+  node.parts.push_back({raycast::Cylinder::make({0, 0, 0}, {0, 0, 2}, radius).object, "hole", {}, {}, {}});
+  const auto made = raycast::Csg::make(node);
+  REQUIRE(made.object);
+  radiosity::Scene scene{{{"white", radiosity::Color{0.5}, radiosity::Color{0.0}}, {"lamp", radiosity::Color{0.0}, radiosity::Color{1.0}}},
+                         {}};
+  scene.objects = {scenes::object("block", made.object, 0), scenes::square("lamp", {0, 0, 3}, 0.3, false, 1)};
+  const scenes::World world{scene};
+  REQUIRE(world.light.lift(0) > 0.0);
+  const glm::dvec3 up{0, 0, 1};
+  for (int i = 0; i < 100; ++i) {
+    const double angle = 2.0 * std::numbers::pi * random.uniform(), gap = std::pow(10.0, between(-7.0, -3.0));
+    const auto at = [&](double r) { return glm::dvec3{r * std::cos(angle), r * std::sin(angle), 0.0}; };
+    const auto light_at = [&](double r) { return world.region(at(r), 1e-6).irradiance(world.in_frame(at(r)), up).x; };
+    CAPTURE(radius, angle, gap);
+    CHECK(light_at(radius * (1.0 - gap)) == Approx(light_at(radius * 0.99)).epsilon(0.05));
+    const glm::dvec3 from = world.light.lifted(0, world.in_frame(at(radius * (1.0 - gap))), up);
+    int backs = 0;
+    for (int k = 0; k < 32; ++k) {
+      const auto hit = world.light.objects().closest({from, 4.0 * radiosity::cosine_direction(up, random.uniform(), random.uniform())});
+      backs += hit && !hit->front ? 1 : 0;
+    }
+    CHECK(backs == 0);
+  }
 }
