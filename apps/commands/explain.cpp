@@ -43,7 +43,8 @@ Command explain_command() {
           {scene_argument(options->scene), text("-o,--output", "OUT", options->output, "OUT.html: a page to look at in any browser"),
            flag("--text", options->text, "tell the same in the terminal"),
            above_zero("--epsilon", options->wanted.epsilon, 1.0, "largest form factor of a link").by_default("0.05"),
-           above_zero("--min-area", options->wanted.min_area, 1.0, "smallest patch, relative to the area of the scene").by_default("0.002"),
+           above_zero("--min-area", options->wanted.min_area, 1.0, "smallest patch, relative to the area that light falls on")
+               .by_default("0.002"),
            above_zero("--light-epsilon", options->wanted.light_epsilon, 1e30, "most that a lamp's light may vary; default: epsilon"),
            above_zero("--target", options->wanted.target, 1.0, "estimated error at which BF-refinement ends").by_default("0.1")},
           [options] { return run(*options); },

@@ -83,7 +83,7 @@ std::vector<Argument> refinement_arguments(RenderOptions& options) {
                      formatted("%g", gathered_epsilon) + ")")
           .without(ends),
       above_zero("--min-area", options.min_area, 1.0,
-                 "smallest patch, relative to the area of the scene, or of about what lamps light of a large one (default " +
+                 "smallest patch, relative to the area that light falls on, or of about what lamps light of a large one (default " +
                      formatted("%g", solver.min_area) + "; of a picture by gather alone " + formatted("%g", gathered_min_area) + ")")
           .without(ends),
       above_zero("--light-epsilon", solver.light_epsilon, 1.0,

@@ -129,16 +129,6 @@ struct LampRayEnd {
   return LampRayEnd{scene.objects.object(hit->object).project(hit->sheet, ray.at(hit->t)), hit->object, hit->sheet};
 }
 
-// Where a ray from a lamp arrives, which is often where the light is: the radiosity there times what such rays bring in the mean over the
-// scene's area, `power`.
-[[nodiscard]] HALFLIGHT_INLINE double square_by_lamp(const DiscreteScene& scene, const PathTracer& tracer, const FacePoints& lamps,
-                                                     double power, double share, Random random) {
-  const std::optional<LampRayEnd> end = end_of_lamp_ray(scene, lamps, share, random);
-  if (!end) { return 0.0; }
-  const Color& rho = tracer.material(tracer.surface(end->object, end->sheet)).reflectance;
-  return power * brightest(rho * reflected_once(tracer, end->at, end->object, end->sheet, random));
-}
-
 // Points spread evenly over the area of the lit faces, and over the emission of all that are not buried.
 struct FacesAndLamps {
   std::vector<bool> buried;
@@ -146,12 +136,25 @@ struct FacesAndLamps {
   FacePoints area, lamps;
   explicit FacesAndLamps(const DiscreteScene& scene)
       : buried{buried_nodes(scene.surfaces, scene.hierarchy)},
-        lit{scene.hierarchy, scene.reflectance, scene.emission, buried},
-        area{scene, [&](std::uint32_t i) { return lit(i) ? 1.0 : 0.0; }},
+        lit{scene.view(), scene.reflectance, scene.emission, buried},
+        area{scene, [&](std::uint32_t i) { return lit.weight(i); }},
         lamps{scene, [&](std::uint32_t i) {
                 return i < buried.size() && buried[i] ? 0.0 : brightest(scene.emission[scene.hierarchy[i].surface]);
               }} {}
 };
+
+// Where a ray from a lamp arrives, which is often where the light is: the radiosity there times what such rays bring in the mean over the
+// area of the lit faces, `power`.
+[[nodiscard]] HALFLIGHT_INLINE double square_by_lamp(const DiscreteScene& scene, const PathTracer& tracer, const FacesAndLamps& faces,
+                                                     double power, double share, Random random) {
+  const std::optional<LampRayEnd> end = end_of_lamp_ray(scene, faces.lamps, share, random);
+  if (!end) { return 0.0; }
+  const std::uint32_t surface = tracer.surface(end->object, end->sheet);
+  const double counts = faces.lit.weight_of_surface(surface);
+  if (!(counts > 0.0)) { return 0.0; }
+  return power * counts *
+         brightest(tracer.material(surface).reflectance * reflected_once(tracer, end->at, end->object, end->sheet, random));
+}
 
 }  // namespace detail
 
@@ -171,7 +174,7 @@ HALFLIGHT_INLINE double reflected_light(const DiscreteScene& scene, const PathTr
           Random random{scene.seed, points + i / 2, i % 2 == 0 ? 0x7265666c65637473ull : 0x6c616d7072617973ull};
           const double share = (static_cast<double>(i / 2) + random.uniform()) / static_cast<double>(batch);
           samples[i] = i % 2 == 0 ? detail::square_at_point(scene, tracer, area, share, random)
-                                  : detail::square_by_lamp(scene, tracer, lamps, emitted, share, random);
+                                  : detail::square_by_lamp(scene, tracer, faces, emitted, share, random);
         },
         16);
     for (std::size_t i = 0; i < samples.size(); ++i) { (i % 2 == 0 ? at_points : by_lamps).add(samples[i]); }
@@ -194,7 +197,9 @@ HALFLIGHT_INLINE double mean_reflected_light(const DiscreteScene& scene, const P
   for (std::uint32_t i = 0; i < rays; ++i) {
     Random random{scene.seed, i, 0x6d65616e6c616d70ull};
     const auto end = detail::end_of_lamp_ray(scene, faces.lamps, (i + random.uniform()) / rays, random);
-    if (end) { sum += brightest(tracer.material(tracer.surface(end->object, end->sheet)).reflectance); }
+    if (!end) { continue; }
+    const std::uint32_t surface = tracer.surface(end->object, end->sheet);
+    sum += faces.lit.weight_of_surface(surface) * brightest(tracer.material(surface).reflectance);
   }
   return sum / rays;
 }

@@ -166,7 +166,7 @@ HALFLIGHT_INLINE LightOracle::LightOracle(const Scene& input, const SceneView& s
     emission_.push_back(brightest(exitance.back()));
     shows_.push_back(std::min(1.0, 2.0 * brightest(reflectance.back())));
   }
-  const LitFaces lit{hierarchy, reflectance, exitance, buried};
+  const LitFaces lit{scene, reflectance, exitance, buried};
   scene_area_ = lit.area();
   std::map<std::pair<std::uint32_t, double>, double> alike;  // area of what shines alike, by object
   for (std::size_t i = 0; i < hierarchy.size(); ++i) {

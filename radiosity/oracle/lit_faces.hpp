@@ -11,24 +11,30 @@
 
 #include <radiosity/hierarchy/hierarchy.hpp>
 #include <radiosity/scene/material.hpp>
+#include <radiosity/visibility/scene_view.hpp>
 
 namespace radiosity {
 
-// All that are not buried, reflect something and shine less than the mean of those that are not buried; or all of these where there are no
-// such.
+// Faces count by weights from 0 to 1. What is buried or reflects nothing has 0; what shines at most half as much as the mean has 1. Towards
+// the mean and beyond it a face counts as far as what falls on it from others that shine, H, is much beside what it emits, E: H / (E + H).
+// So a sun has next to nothing, and the walls of a room that shine all alike have as much as each other. The largest weight is made 1.
+// Where all weights are 0, whatever is not buried has 1.
 class LitFaces {
  public:
   // `reflectance`, `emission`: of each input surface; `buried`: by node (buried.hpp), or none when it is empty.
-  LitFaces(const Hierarchy& hierarchy, std::span<const Color> reflectance, std::span<const Color> emission,
-           const std::vector<bool>& buried);
+  LitFaces(const SceneView& scene, std::span<const Color> reflectance, std::span<const Color> emission, const std::vector<bool>& buried);
 
-  [[nodiscard]] bool operator()(std::size_t i) const { return counts_[i]; }
+  // Of an input face; 0 of other nodes.
+  [[nodiscard]] double weight(std::size_t node) const { return weight_[node]; }
+  // Of what is not buried of an input surface.
+  [[nodiscard]] double weight_of_surface(std::size_t surface) const { return of_surface_[surface]; }
+  // Sum of areas, each times its weight.
   [[nodiscard]] double area() const { return area_; }
   // Of all faces that are not buried, in the brightest channel of each, over the area above.
   [[nodiscard]] double mean_emission() const { return area_ > 0.0 ? power_ / area_ : 0.0; }
 
  private:
-  std::vector<bool> counts_;  // by node
+  std::vector<double> weight_, of_surface_;
   double area_ = 0.0, power_ = 0.0;
 };
 

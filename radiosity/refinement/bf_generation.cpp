@@ -43,7 +43,7 @@ HALFLIGHT_INLINE BfState::BfState(DiscreteScene& of) : scene{of}, proofs{of.surf
   result.links = Links(scene.budget.arrays);
   result.refined = refine(scene, {first_epsilon, 1e-3, 0.0});
   for (const auto [p, q, list] : std::exchange(result.refined.linked, {})) { links.push_back({{p, q}, list, {}}); }
-  min_area = 0x1p-24 * LitFaces{scene.hierarchy, scene.reflectance, scene.emission, {}}.area();
+  min_area = 0x1p-24 * LitFaces{scene.view(), scene.reflectance, scene.emission, {}}.area();
   sees_itself.resize(scene.hierarchy.size(), false);
   for (const std::uint32_t i : result.refined.inner) { sees_itself[i] = true; }
 }

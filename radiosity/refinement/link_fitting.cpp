@@ -55,7 +55,7 @@ HALFLIGHT_INLINE bool at_blade(const DiscreteScene& scene, std::uint32_t leaf) {
 HALFLIGHT_INLINE double lit_area(const DiscreteScene& scene) {
   std::vector<bool> buried(scene.hierarchy.size());
   for (std::size_t i = 0; i < buried.size(); ++i) { buried[i] = !(scene.exposure.area[i] > 0.0); }
-  return LitFaces{scene.hierarchy, scene.reflectance, scene.emission, buried}.area();
+  return LitFaces{scene.view(), scene.reflectance, scene.emission, buried}.area();
 }
 
 }  // namespace radiosity

@@ -44,7 +44,7 @@ namespace detail {
   if (!scene.control.viewpoint || !run.solution.audit.reflected_share) { return {}; }
   ViewPaths paths = view_paths(scene, *run.tracer, *scene.control.viewpoint);
   if (!(paths.reflected > 0.0)) { return {}; }
-  const LitFaces lit{scene.hierarchy, scene.reflectance, scene.emission, buried_nodes(scene.surfaces, scene.hierarchy)};
+  const LitFaces lit{scene.view(), scene.reflectance, scene.emission, buried_nodes(scene.surfaces, scene.hierarchy)};
   const auto contrast_to = [&](double share) { return std::pow(share * lit.mean_emission() / paths.reflected, 2.0); };
   // Bright spots beside lamps, which the picture may not show, raise the RMS of the scene: a picture that is darker gains nothing by that.
   // Where it is darker than the mean, as a room is that a sky lights through a door, its light comes in at a few places, which are small
