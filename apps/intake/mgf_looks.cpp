@@ -62,7 +62,8 @@ void Looks::spectrum(const Line& line, Errors& errors) {
   for (std::size_t i = 3; i < line.words.size(); ++i) { values.push_back(number(line, i, errors)); }
   if (values.size() < 2) { return errors.add(line.place(line.words.size()), "a spectrum has at least two values"); }
   const glm::dvec3 xyz = xyz_of_samples(values, first, last);
-  if (!(xyz.y > 1e-6 * (xyz.x + xyz.y + xyz.z))) { return errors.add(line.place(3), "nothing of this spectrum is seen"); }
+  const double sum = xyz.x + xyz.y + xyz.z;  // values may be negative: spectra are components of others
+  if (!(sum > 0.0 && xyz.y > 1e-6 * sum)) { return errors.add(line.place(3), "nothing of this spectrum is seen"); }
   set_color(xyz);
 }
 

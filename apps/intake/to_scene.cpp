@@ -69,7 +69,9 @@ class SceneMaker {
       file_.origins.push_back(model_.origins[i]);
     }
     if (file_.scene.objects.empty()) {
-      faults.push_back("nothing in this file has a surface" + (file_.notes.empty() ? "" : "; " + file_.notes[0]));
+      std::string sentence = "nothing in this file has a surface";
+      for (const std::string& told : file_.notes) { sentence += "; " + told; }
+      faults.push_back(std::move(sentence));
       return false;
     }
     if (file_.scene.objects.size() > max_model_objects) {
@@ -158,9 +160,8 @@ class SceneMaker {
     for (const radiosity::Camera& camera : file_.cameras) { options.eyes.push_back(camera.eye); }
     for (const ModelLight& light : model_.lights) { options.eyes.push_back(light.position); }
     for (const radiosity::SceneObject& object : model_.objects) {
-      const bool shines = std::any_of(object.material.begin(), object.material.end(),
-                                      [&](std::uint32_t m) { return !radiosity::is_black(file_.scene.materials[m].emission); });
-      if (shines) { options.eyes.push_back(radiosity::placed_bounds(*object.shape, object.placement).centre()); }
+      const bool shines = shines_by(object);
+      if (shines && !object.placement.inside) { options.lamps.push_back(radiosity::placed_sides(*object.shape, object.placement)); }
     }
     const radiosity::PolygonView view{model_.positions, model_.corners, model_.first_corner, model_.material,
                                       model_.group,     model_.groups,  two_sided_};
@@ -214,13 +215,12 @@ class SceneMaker {
     }
   }
 
+  [[nodiscard]] bool shines_by(const radiosity::SceneObject& object) const {
+    return std::any_of(object.material.begin(), object.material.end(),
+                       [&](std::uint32_t m) { return !radiosity::is_black(file_.scene.materials[m].emission); });
+  }
   [[nodiscard]] bool shines() const {
-    for (const radiosity::SceneObject& object : file_.scene.objects) {
-      for (const std::uint32_t m : object.material) {
-        if (!radiosity::is_black(file_.scene.materials[m].emission)) { return true; }
-      }
-    }
-    return false;
+    return std::any_of(file_.scene.objects.begin(), file_.scene.objects.end(), [&](const auto& object) { return shines_by(object); });
   }
 
   // Where what cameras see is not lit, one is added that stands in the light.

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <span>
 #include <tuple>
 #include <utility>
@@ -185,7 +186,9 @@ HALFLIGHT_INLINE void turn_to_light(Working& mesh, std::span<const Material> mat
   bool any = false;
   for (std::uint32_t p = 0; p < borders.pieces; ++p) { any = any || asks(p); }
   if (!any) { return; }
-  const std::vector<PieceView> views = SideLight(mesh, borders.piece, borders.pieces).solve(materials, options.eyes);
+  std::vector<glm::dvec3> eyes = options.eyes;
+  for (const auto& lamp : options.lamps) { eyes.push_back(std::accumulate(lamp.begin(), lamp.end(), glm::dvec3(0.0)) / 6.0); }
+  const std::vector<PieceView> views = SideLight(mesh, borders.piece, borders.pieces).solve(materials, eyes);
   std::vector<int> side_of(borders.pieces, 0);
   for (std::uint32_t p = 0; p < borders.pieces; ++p) {
     if (!asks(p)) { continue; }

@@ -22,7 +22,7 @@ namespace radiosity {
 
 HALFLIGHT_INLINE Intake take_in(const PolygonView& input, std::span<const Material> materials, const IntakeOptions& options) {
   intake::Working mesh;
-  intake::weld(input, materials.size(), options.weld, mesh);
+  intake::weld(input, materials, options.weld, mesh);
   intake::drop_degenerate(mesh);
   intake::drop_duplicates(mesh);
   intake::match_diagonals(mesh);

@@ -42,7 +42,7 @@ class ObjectMaker {
       for (std::uint32_t s = topology.first[f]; s < topology.first[f + 1]; ++s) { face_of_[s] = f; }
     }
     shells_.find_roles();
-    if (options.sides_unknown || options.open_sides_unknown) { show_both_sides(mesh, topology, shells_); }
+    if (options.sides_unknown || options.open_sides_unknown) { show_both_sides(mesh, topology, options.sides_unknown, shells_); }
     const std::vector<bool> two_sided = faces_with_backs();
     turn_lamps(mesh, topology, materials, flush, two_sided, shells_);
   }

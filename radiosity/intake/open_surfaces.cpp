@@ -110,12 +110,12 @@ struct OpenSurfaces {
 
 }  // namespace detail
 
-HALFLIGHT_INLINE void show_both_sides(Working& mesh, const Topology& topology, Shells& shells) {
+HALFLIGHT_INLINE void show_both_sides(Working& mesh, const Topology& topology, bool may_turn, Shells& shells) {
   constexpr double tol_opening = 0.02;
   const detail::OpenSurfaces open(mesh, topology, shells.components());
   const auto is_open = [&](std::uint32_t c) { return open.opening[c] > tol_opening * open.area[c] && 2.0 * open.met[c] < open.border[c]; };
   if (open.are_walls()) {
-    if (shells.components().size() > 1 || is_open(0)) { return; }
+    if (!may_turn || shells.components().size() > 1 || is_open(0) || shells.shines(shells.components()[0])) { return; }
     shells.turn(0);
     mesh.changed(ChangeKind::inside_out, open.first[0]);
   }

@@ -13,8 +13,8 @@ namespace radiosity::intake {
 
 // To be called when the roles are found. Surfaces whose opening is less than a fiftieth of their area keep their one side: hardly anything
 // is seen through it. So do those that mostly end on each other, as the cells of a solid do that was cut into pieces. One that is alone and
-// looks inwards is turned, as a closed shell with nothing in it is.
-void show_both_sides(Working& mesh, const Topology& topology, Shells& shells);
+// looks inwards, and does not shine there, is turned where `may_turn`, as a closed shell with nothing in it is.
+void show_both_sides(Working& mesh, const Topology& topology, bool may_turn, Shells& shells);
 
 }  // namespace radiosity::intake
 

@@ -3,6 +3,7 @@
 
 // The polygons that the intake is given, what it may be told about them, and where each of them went.
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -32,8 +33,8 @@ struct PolygonView {
 inline constexpr double largest_weld = 0.01;
 
 struct IntakeOptions {
-  // Vertices closer than this are one, and a vertex so close to an edge lies on it; relative to the diagonal of the bounds of all. In
-  // [0, largest_weld].
+  // Vertices closer than this are one, and a vertex so close to an edge lies on it; relative to the diagonal of the bounds of what
+  // does not shine. In [0, largest_weld].
   double weld = 1e-6;
   bool merge = true;       // coplanar neighbours of one material
   bool two_sided = false;  // all surfaces that enclose nothing
@@ -43,6 +44,8 @@ struct IntakeOptions {
   bool sides_unknown = false;
   // Points that must be seen, such as the eyes of cameras: a closed shell around one of them, or around a lamp, is a room.
   std::vector<glm::dvec3> eyes = {};
+  // Lamps that are not among the polygons, such as spheres: six points on each. A closed shell around all of them is a room.
+  std::vector<std::array<glm::dvec3, 6>> lamps = {};
 };
 
 // Where a polygon of the input went: it lies on this sheet of an object, alone, together with others, or with a part of it.

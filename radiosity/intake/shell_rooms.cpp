@@ -85,10 +85,10 @@ HALFLIGHT_INLINE bool Shells::is_bare_room(const Component& shell) const {
   return may_be && has_walls(shell) && std::all_of(components_.begin(), components_.end(), within);
 }
 
-HALFLIGHT_INLINE Component* Shells::pierced_by(std::span<const Place> places, const Component& lamp) {
+HALFLIGHT_INLINE Component* Shells::pierced_by(std::span<const Place> places, const Component* lamp) {
   Component* best = nullptr;
   for (Component& shell : components_) {
-    if ((shell.role != Role::solid && shell.role != Role::room) || &shell == &lamp) { continue; }
+    if ((shell.role != Role::solid && shell.role != Role::room) || &shell == lamp) { continue; }
     if (best != nullptr && std::abs(shell.volume) >= std::abs(best->volume)) { continue; }
     const auto held = static_cast<std::size_t>(std::count_if(
         places.begin(), places.end(), [&](const Place& place) { return holds(shell, place.front) || holds(shell, place.behind); }));
@@ -121,6 +121,12 @@ HALFLIGHT_INLINE std::vector<Component*> Shells::find_rooms() {
     const Place place{eye, eye};
     rooms.push_back(innermost(std::span(&place, 1), nullptr));
   }
+  for (const auto& lamp : options_.lamps) {
+    std::vector<Place> places;
+    for (const glm::dvec3& p : lamp) { places.push_back({p, p}); }
+    Component* const around = innermost(places, nullptr);
+    rooms.push_back(around != nullptr ? around : pierced_by(places, nullptr));
+  }
   const std::vector<Component*> around_eyes = rooms;
   const auto seen_from_inside = [&](const Component* shell) {
     return shell != nullptr && std::find(around_eyes.begin(), around_eyes.end(), shell) != around_eyes.end();
@@ -146,7 +152,7 @@ HALFLIGHT_INLINE std::vector<Component*> Shells::find_rooms() {
       Component* const whole = innermost(corners, &component);
       if (whole != nullptr && is_furnished(*whole)) { around = whole; }
     }
-    Component* const pierced = pierced_by(places, component);
+    Component* const pierced = pierced_by(places, &component);
     if (pierced != nullptr && (around == nullptr || std::abs(pierced->volume) < std::abs(around->volume))) { around = pierced; }
     const bool itself = shines_inwards(component, around, seen_from_inside(around));
     rooms.push_back(itself ? &component : around);

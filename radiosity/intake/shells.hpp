@@ -99,8 +99,9 @@ class Shells {
   // May the shell be a room in which nothing stands? It has walls, does not look outwards as far as the file tells, nothing but lamps
   // reaches out of it, and no eye tells another thing.
   [[nodiscard]] bool is_bare_room(const Component& shell) const;
-  // The innermost furnished or bare room through whose walls a lamp reaches, such as a bulb that is sunk into the ceiling.
-  [[nodiscard]] Component* pierced_by(std::span<const Place> places, const Component& lamp);
+  // The innermost furnished or bare room through whose walls a lamp reaches, such as a bulb that is sunk into the ceiling. `lamp` is null
+  // where it is none of the shells.
+  [[nodiscard]] Component* pierced_by(std::span<const Place> places, const Component* lamp);
   // Is a shell that shines on the inside, at least in part, a room? One that looks outwards is when it shines in part and is furnished. One
   // that looks inwards is when something is in it, when it is alone, or when the innermost shell around it looks outwards and is filled by
   // half, as walls are by their rooms. Else it is a lamp, a bulb for instance, or a thing that shines, and is inside out; so it is when an

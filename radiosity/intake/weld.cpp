@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <unordered_map>
 #include <vector>
 
@@ -16,11 +17,13 @@
 #include <raycast/inline.hpp>
 #include <raycast/object.hpp>
 
+#include <radiosity/scene/material.hpp>
+
 namespace radiosity::intake {
 namespace detail {
 
 // Points in cells of a grid. A cell is much wider than the tolerance, so a point looks into its own cell, and into a neighbour only where
-// it lies near the border.
+// it lies near the border. Points far outside of the bounds share the outermost cells.
 class PointGrid {
  public:
   PointGrid(const raycast::Box& bounds, double tolerance, std::vector<glm::dvec3>& points)
@@ -28,7 +31,7 @@ class PointGrid {
 
   // The first point within the tolerance; `none` when there is none.
   [[nodiscard]] std::uint32_t find(const glm::dvec3& p) const {
-    const glm::dvec3 lo = glm::floor((p - tolerance_ - origin_) / cell_), hi = glm::floor((p + tolerance_ - origin_) / cell_);
+    const glm::dvec3 lo = cell_of(p - tolerance_), hi = cell_of(p + tolerance_);
     std::uint32_t found = none;
     for (double x = lo.x; x <= hi.x; x += 1.0) {
       for (double y = lo.y; y <= hi.y; y += 1.0) {
@@ -46,7 +49,7 @@ class PointGrid {
   std::uint32_t add(const glm::dvec3& p) {
     const auto index = static_cast<std::uint32_t>(points_.size());
     points_.push_back(p);
-    const auto [head, is_new] = heads_.emplace(key(glm::floor((p - origin_) / cell_)), index);
+    const auto [head, is_new] = heads_.emplace(key(cell_of(p)), index);
     next_.push_back(is_new ? none : head->second);
     head->second = index;
     return index;
@@ -59,6 +62,7 @@ class PointGrid {
 
  private:
   // Cells are numbered from -1 to 2^20 each way.
+  [[nodiscard]] glm::dvec3 cell_of(const glm::dvec3& p) const { return glm::clamp(glm::floor((p - origin_) / cell_), -1.0, 0x1p20); }
   static std::uint64_t key(const glm::dvec3& cell) {
     const auto number = [](double x) { return static_cast<std::uint64_t>(x + 1.0); };
     return number(cell.x) << 42U | number(cell.y) << 21U | number(cell.z);
@@ -84,17 +88,22 @@ inline bool usable_polygon(const PolygonView& input, std::size_t p, std::size_t 
 
 }  // namespace detail
 
-HALFLIGHT_INLINE void weld(const PolygonView& input, std::size_t materials, double relative_tolerance, Working& out) {
+HALFLIGHT_INLINE void weld(const PolygonView& input, std::span<const Material> materials, double relative_tolerance, Working& out) {
   std::vector<bool> usable(input.count());
-  raycast::Box bounds;
+  raycast::Box all, without_lamps;
   for (std::size_t p = 0; p < input.count(); ++p) {
-    usable[p] = detail::usable_polygon(input, p, materials);
+    usable[p] = detail::usable_polygon(input, p, materials.size());
     if (!usable[p]) {
       out.changed(ChangeKind::unusable, static_cast<std::uint32_t>(p));
       continue;
     }
-    for (std::size_t i = input.first_corner[p]; i < input.first_corner[p + 1]; ++i) { bounds.extend(input.positions[input.corners[i]]); }
+    const bool shines = !is_black(materials[input.material[p]].emission);
+    for (std::size_t i = input.first_corner[p]; i < input.first_corner[p + 1]; ++i) {
+      all.extend(input.positions[input.corners[i]]);
+      if (!shines) { without_lamps.extend(input.positions[input.corners[i]]); }
+    }
   }
+  const raycast::Box& bounds = without_lamps.diameter() > 0.0 ? without_lamps : all;
   if (!(bounds.diameter() > 0.0)) { return; }
   out.tolerance = relative_tolerance * bounds.diameter() + 0x1p-50 * bounds.magnitude();  // coordinates are known no better
   detail::PointGrid grid(bounds, out.tolerance, out.positions);

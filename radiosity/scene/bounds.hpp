@@ -4,6 +4,8 @@
 // Objects where they stand, and the bounds of a scene's surfaces. As a solid, a room (an object with `inside`) is unbounded: everything
 // outside its shape. Its surface is that of the shape, whose bounds are taken.
 
+#include <array>
+#include <cstddef>
 #include <vector>
 
 #include <glm/vec3.hpp>
@@ -25,6 +27,18 @@ namespace radiosity {
     result.extend(placement.linear * corner + placement.translation);
   }
   return result;
+}
+
+// The middles of the six sides of the box around a shape, before it was placed: on a sphere, and, but for the side of a cone, on the others.
+[[nodiscard]] inline std::array<glm::dvec3, 6> placed_sides(const raycast::Object& shape, const raycast::Placement& placement) {
+  const raycast::Box own = shape.bounds();
+  std::array<glm::dvec3, 6> sides{};
+  for (int i = 0; i < 6; ++i) {
+    glm::dvec3 p = own.centre();
+    p[i / 2] = i % 2 == 0 ? own.lo[i / 2] : own.hi[i / 2];
+    sides[static_cast<std::size_t>(i)] = placement.linear * p + placement.translation;
+  }
+  return sides;
 }
 
 [[nodiscard]] inline raycast::Box scene_bounds(const Scene& scene) {

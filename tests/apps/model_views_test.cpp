@@ -297,25 +297,6 @@ TEST_CASE("the camera in a house does not depend on the order of polygons, and o
   }
 }
 
-TEST_CASE("a room whose only lamp is a ball without polygons is seen and lit within") {
-  const std::string room =
-                        "v a =\n p 0 0 0\nv b =\n p 4 0 0\nv c =\n p 4 4 0\nv d =\n p 0 4 0\n"
-                        "v e =\n p 0 0 3\nv f =\n p 4 0 3\nv g =\n p 4 4 3\nv h =\n p 0 4 3\n"
-                        "m wall =\n sides 1\n rd .5\n",
-                    inwards = "f a b c d\nf e h g f\nf a e f b\nf b f g c\nf c g h d\nf d h e a\n",
-                    outwards = "f d c b a\nf f g h e\nf b f e a\nf c g f b\nf d h g c\nf a e h d\n",
-                    ball = "v i =\n p 2 2 2\nm lamp =\n ed 179\nsph i .2\n";
-  for (const std::string& walls : {inwards, outwards}) {
-    const apps::SceneFile taken = scene("a.mgf", room + walls + ball);
-    REQUIRE(taken.scene.objects.size() == 2);
-    const raycast::Scene objects{radiosity::placed_objects(taken.scene)};
-    const auto hit = objects.closest({{1, 1, 1}, {0, 0, -2}});
-    REQUIRE(hit);
-    CHECK(hit->front);
-    CHECK(hit->t == Approx(0.5));
-  }
-}
-
 TEST_CASE("a box with a screen sunk into its front is no room, though the file tells no sides") {
   apps::Model model;
   model.groups = {"box", "screen"};
@@ -331,16 +312,4 @@ TEST_CASE("a box with a screen sunk into its front is no room, though the file t
   REQUIRE(hit);
   CHECK(hit->front);
   CHECK(hit->t == Approx(0.5));
-}
-
-TEST_CASE("a ball that shines lights what is beside and below it as well as what is above it") {
-  const radiosity::Scene scene{
-      {{"grey", radiosity::Color(0.5), radiosity::Color(0.0)}, {"lamp", radiosity::Color(0.0), radiosity::Color(1.0)}},
-      {{"floor", raycast::Polygon::make({{-2, -2, 0}, {2, -2, 0}, {2, 2, 0}, {-2, 2, 0}}).object, {}, {0}},
-       {"ball", raycast::Sphere::make({0, 0, 3}, 0.2).object, {}, {1}}}};
-  radiosity::Camera down;
-  down.eye = {0.0, -0.1, 2.0};
-  down.forward = {0.0, 0.1, -1.0};
-  down.field_of_view = 40.0;
-  CHECK(apps::LightViews(scene).lit_share(down) == 1.0);
 }

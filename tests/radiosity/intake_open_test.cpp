@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <numbers>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include <radiosity/intake/intake.hpp>
@@ -52,7 +53,7 @@ Soup part_of_ball(double low, double high, int n) {
 }
 
 constexpr double pi = std::numbers::pi;
-const radiosity::IntakeOptions unknown{.sides_unknown = true};
+const radiosity::IntakeOptions unknown{.sides_unknown = true}, unknown_beside_lamps{.open_sides_unknown = true};
 
 }  // namespace
 
@@ -90,9 +91,45 @@ TEST_CASE("intake: leaves beside a lamp reflect on both sides, the lamp shines o
   }
   const double of_leaves = soup.area();
   soup.polygon({{-1, -1, 4}, {-1, 1, 4}, {1, 1, 4}, {1, -1, 4}}, 1);
-  const radiosity::Intake taken = soup.take_in(unknown);
-  CHECK(measure(taken.objects).area == Approx(2.0 * of_leaves + 4.0).epsilon(1e-6));
-  CHECK(count_of(taken, ChangeKind::open) == leaves);
+  for (const radiosity::IntakeOptions& options : {unknown, unknown_beside_lamps}) {
+    const radiosity::Intake taken = soup.take_in(options);
+    CHECK(measure(taken.objects).area == Approx(2.0 * of_leaves + 4.0).epsilon(1e-6));
+    CHECK(count_of(taken, ChangeKind::open) == leaves);
+  }
+}
+
+// The room is one surface, for its lamp is a part of its ceiling; where a cell of a wall is missing hardly anything is seen through it.
+TEST_CASE("intake: a room with a lamp in its ceiling and a small hole in a wall is seen from within") {
+  constexpr int n = 8;
+  const glm::dvec3 size(4.0, 5.0, 3.0);
+  for (int missing = -1; missing < 6; ++missing) {
+    Soup room;
+    for (int side = 0; side < 6; ++side) {
+      const int axis = side / 2, x = (axis + 1) % 3, y = (axis + 2) % 3;
+      const bool far = side % 2 == 1;
+      for (int i = 0; i < n; ++i) {
+        for (int j = 0; j < n; ++j) {
+          if (side == missing && i == 2 && j == 5) { continue; }
+          std::vector<glm::dvec3> p;
+          for (const auto& [u, v] : {std::pair(i, j), std::pair(i + 1, j), std::pair(i + 1, j + 1), std::pair(i, j + 1)}) {
+            glm::dvec3 corner(0.0);
+            corner[axis] = far ? size[axis] : 0.0;
+            corner[x] = size[x] * u / n;
+            corner[y] = size[y] * v / n;
+            p.push_back(corner);
+          }
+          if (far) { std::reverse(p.begin(), p.end()); }
+          room.polygon(p, side == 5 && (i == 3 || i == 4) && (j == 3 || j == 4) ? 1 : 0);
+        }
+      }
+    }
+    CAPTURE(missing);
+    for (const radiosity::IntakeOptions& options : {radiosity::IntakeOptions{}, unknown, unknown_beside_lamps}) {
+      const radiosity::Intake taken = room.take_in(options);
+      CHECK(count_of(taken, ChangeKind::inside_out) == 0);
+      CHECK(measure(taken.objects).area == Approx(room.area()));
+    }
+  }
 }
 
 TEST_CASE("intake: where nothing tells the side, the walls of an open room and bodies with small holes keep theirs") {
