@@ -89,14 +89,16 @@ HALFLIGHT_INLINE BakeOutcome bake(const MeshView& mesh, const BakeOptions& optio
     return baking::detail::refused(
         {"there are " + std::to_string(triangles) + " triangles, and materials of " + std::to_string(mesh.material.size())});
   }
-  std::vector<glm::dvec3> positions;
-  for (std::size_t i = 0; i + 2 < mesh.positions.size(); i += mesh.stride) {
-    positions.emplace_back(mesh.positions[i], mesh.positions[i + 1], mesh.positions[i + 2]);
-  }
-  std::vector<std::uint32_t> first(triangles + 1), material(mesh.material.begin(), mesh.material.end());
-  for (std::size_t t = 0; t <= triangles; ++t) { first[t] = static_cast<std::uint32_t>(3 * t); }
-  material.resize(triangles, 0);
-  return bake({positions, mesh.indices, first, material}, mesh.materials, options, control);
+  return radiosity::detail::unless_out_of_memory([&] {
+    std::vector<glm::dvec3> positions;
+    for (std::size_t i = 0; i + 2 < mesh.positions.size(); i += mesh.stride) {
+      positions.emplace_back(mesh.positions[i], mesh.positions[i + 1], mesh.positions[i + 2]);
+    }
+    std::vector<std::uint32_t> first(triangles + 1), material(mesh.material.begin(), mesh.material.end());
+    for (std::size_t t = 0; t <= triangles; ++t) { first[t] = static_cast<std::uint32_t>(3 * t); }
+    material.resize(triangles, 0);
+    return bake({positions, mesh.indices, first, material}, mesh.materials, options, control);
+  });
 }
 
 }  // namespace radiosity

@@ -55,6 +55,7 @@ HALFLIGHT_INLINE BakedLight::BakedLight(const Scene& scene, const Solution& solu
 }
 
 HALFLIGHT_INLINE std::optional<PolygonPart> BakedLight::front(std::size_t polygon) const {
+  if (polygon >= polygons()) { return std::nullopt; }
   std::optional<PolygonPart> found;
   for (const PolygonPart& part : parts_.of(polygon)) {
     if (part.back) { continue; }
@@ -134,7 +135,10 @@ HALFLIGHT_INLINE BakedColors baked_colors(const BakedLight& light, const Polygon
   for (std::size_t p = 0; p < input.count(); ++p) {
     for (std::size_t c = input.first_corner[p]; c < input.first_corner[p + 1] && c < input.corners.size(); ++c) {
       const std::uint32_t v = input.corners[c];
-      if (v >= input.positions.size()) { continue; }
+      if (v >= input.positions.size()) {
+        ++result.without;
+        continue;
+      }
       if (const std::optional<Color> color = light.radiosity(p, input.positions[v])) {
         result.corner[c] = *color;
         vertices[v].add(*color, std::max(baking::detail::angle(input, p, c - input.first_corner[p]), 1e-6));
@@ -145,17 +149,25 @@ HALFLIGHT_INLINE BakedColors baked_colors(const BakedLight& light, const Polygon
   }
   if (!without.empty()) {  // from others at the same place
     std::map<glm::dvec3, baking::detail::Mean, baking::detail::ByCoordinates> places;
-    for (const auto& [corner, v] : without) { places[input.positions[v]]; }
+    const auto is_place = [&](std::size_t v) {  // others have no order
+      const glm::dvec3& p = input.positions[v];
+      return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+    };
+    for (const auto& [corner, v] : without) {
+      if (is_place(v)) { places[input.positions[v]]; }
+    }
     for (std::size_t v = 0; v < vertices.size(); ++v) {
+      if (!is_place(v)) { continue; }
       const auto place = places.find(input.positions[v]);
       if (place != places.end()) { place->second += vertices[v]; }
     }
     for (const auto& [corner, v] : without) {
+      if (!is_place(v)) { continue; }
       result.corner[corner] = places[input.positions[v]].color();
       if (!(vertices[v].weight > 0.0)) { vertices[v] = {result.corner[corner], 1.0}; }
     }
   }
-  result.without = without.size();
+  result.without += without.size();
   for (const baking::detail::Mean& vertex : vertices) { result.vertex.push_back(vertex.color()); }
   return result;
 }

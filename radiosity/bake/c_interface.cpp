@@ -24,6 +24,7 @@
 #include <glm/vec3.hpp>
 
 #include <radiosity/bake/bake.hpp>
+#include <radiosity/bake/c_names.hpp>
 #include <radiosity/bake/lightmap.hpp>
 
 struct halflight_job {
@@ -45,10 +46,30 @@ struct halflight_job {
 namespace {
 
 using radiosity::BakeOptions;
+using radiosity::c_interface::Figure, radiosity::c_interface::figures, radiosity::c_interface::number_options,
+    radiosity::c_interface::NumberOption;
 
 halflight_status refuse(halflight_job* job, std::string message, halflight_status status = HALFLIGHT_INVALID) {
   if (job != nullptr) { job->message = std::move(message); }
   return status;
+}
+
+// Calls what may need memory: nothing is thrown into C when there is none. Other exceptions are those of a callback.
+template <class Attempt>
+auto unless_out_of_memory(halflight_job* job, decltype(std::declval<Attempt>()()) otherwise, const Attempt& attempt) {
+  try {
+    return attempt();
+  } catch (const std::bad_alloc&) {
+    if (job != nullptr) { job->message = "out of memory"; }  // short enough to stand in the string itself
+    return otherwise;
+  }
+}
+
+// Results belong to the buffers that were run.
+void forget_results(halflight_job& job) {
+  job.baked.reset();
+  job.lightmap.reset();
+  job.changes.clear();
 }
 
 // From within its callback a job cannot be changed, run or destroyed.
@@ -69,68 +90,6 @@ class Running {
  private:
   halflight_job& job_;
 };
-
-// An option: what it may be, and where it goes.
-struct NumberOption {
-  std::string_view name;
-  double least, most;
-  bool whole;
-  void (*set)(BakeOptions& options, double value);
-};
-
-constexpr double any = std::numeric_limits<double>::max();
-constexpr double exact = 9007199254740992.0;  // whole numbers up to here
-
-constexpr std::array<NumberOption, 11> number_options{{
-    {"epsilon", 0.0, 1.0, false, [](BakeOptions& o, double v) { o.solve.epsilon = v; }},
-    {"min_area", 0.0, 1.0, false, [](BakeOptions& o, double v) { o.solve.min_area = v; }},
-    {"error", 0.0, 1.0, false, [](BakeOptions& o, double v) { o.solve.error = v; }},
-    {"seconds", 0.0, any, false,
-     [](BakeOptions& o, double v) {
-       o.solve.refinement = radiosity::Refinement::a_posteriori;
-       o.solve.time = v;
-     }},
-    {"audit_points", 0.0, 1e8, true, [](BakeOptions& o, double v) { o.solve.audit_points = static_cast<std::uint32_t>(v); }},
-    {"threads", 0.0, 4096.0, true, [](BakeOptions& o, double v) { o.solve.threads = static_cast<unsigned>(v); }},
-    {"seed", 0.0, exact, true, [](BakeOptions& o, double v) { o.solve.seed = static_cast<std::uint64_t>(v); }},
-    {"memory", 0.0, exact, true, [](BakeOptions& o, double v) { o.solve.memory = static_cast<std::uint64_t>(v); }},
-    {"weld", 0.0, radiosity::largest_weld, false, [](BakeOptions& o, double v) { o.intake.weld = v; }},
-    {"two_sided", 0.0, 1.0, true, [](BakeOptions& o, double v) { o.intake.two_sided = v != 0.0; }},
-    {"merge", 0.0, 1.0, true, [](BakeOptions& o, double v) { o.intake.merge = v != 0.0; }},
-}};
-
-struct Figure {
-  std::string_view name;
-  std::optional<double> (*value)(const radiosity::Baked& baked);
-};
-
-template <class Number>
-std::optional<double> number(Number value) {
-  return static_cast<double>(value);
-}
-
-std::optional<double> of_error(const radiosity::Baked& baked, double radiosity::ErrorEstimate::*value) {
-  return baked.audit.surface_error ? std::optional((*baked.audit.surface_error).*value) : std::nullopt;
-}
-
-constexpr std::array<Figure, 16> figures{{
-    {"error", [](const radiosity::Baked& b) { return of_error(b, &radiosity::ErrorEstimate::relative_l2); }},
-    {"error_low", [](const radiosity::Baked& b) { return of_error(b, &radiosity::ErrorEstimate::low); }},
-    {"error_high", [](const radiosity::Baked& b) { return of_error(b, &radiosity::ErrorEstimate::high); }},
-    {"seconds", [](const radiosity::Baked& b) { return number(b.audit.wall_seconds); }},
-    {"cpu_seconds", [](const radiosity::Baked& b) { return number(b.audit.cpu_seconds); }},
-    {"faces", [](const radiosity::Baked& b) { return number(b.faces); }},
-    {"leaves", [](const radiosity::Baked& b) { return number(b.audit.leaves); }},
-    {"links", [](const radiosity::Baked& b) { return number(b.audit.links); }},
-    {"rays", [](const radiosity::Baked& b) { return number(b.audit.rays); }},
-    {"residual", [](const radiosity::Baked& b) { return number(b.audit.residual); }},
-    {"iterations", [](const radiosity::Baked& b) { return number(b.audit.iterations); }},
-    {"converged", [](const radiosity::Baked& b) { return number(b.audit.converged); }},
-    {"interrupted", [](const radiosity::Baked& b) { return number(b.audit.interrupted); }},
-    {"coarsened", [](const radiosity::Baked& b) { return number(b.audit.coarsened); }},
-    {"epsilon", [](const radiosity::Baked& b) { return number(b.audit.epsilon); }},
-    {"without", [](const radiosity::Baked& b) { return number(b.colors.without); }},
-}};
 
 // The components of a list's vectors into a buffer with room for `count` of these.
 template <class Vector>
@@ -183,112 +142,126 @@ void halflight_destroy(halflight_job* job) {
 }
 
 halflight_status halflight_set_positions(halflight_job* job, const float* xyz, size_t count, size_t stride) {
-  if (is_running(job)) { return HALFLIGHT_INVALID; }
-  if (job == nullptr || (xyz == nullptr && count > 0)) { return refuse(job, "there are no positions"); }
-  if (stride < 3 || stride > 1'000'000) {
-    return refuse(job, "the stride of the positions is " + std::to_string(stride) + "; a vertex has three numbers");
-  }
-  if (count > std::numeric_limits<std::uint32_t>::max()) { return refuse(job, "there are more vertices than indices can count"); }
-  job->positions = {xyz, count == 0 ? 0 : (count - 1) * stride + 3};
-  job->stride = static_cast<std::uint32_t>(stride);
-  return HALFLIGHT_OK;
+  return unless_out_of_memory(job, HALFLIGHT_OUT_OF_MEMORY, [&]() -> halflight_status {
+    if (is_running(job)) { return HALFLIGHT_INVALID; }
+    if (job == nullptr || (xyz == nullptr && count > 0)) { return refuse(job, "there are no positions"); }
+    if (stride < 3 || stride > 1'000'000) {
+      return refuse(job, "the stride of the positions is " + std::to_string(stride) + "; a vertex has three numbers");
+    }
+    if (count > std::numeric_limits<std::uint32_t>::max()) { return refuse(job, "there are more vertices than indices can count"); }
+    forget_results(*job);
+    job->positions = {xyz, count == 0 ? 0 : (count - 1) * stride + 3};
+    job->stride = static_cast<std::uint32_t>(stride);
+    return HALFLIGHT_OK;
+  });
 }
 
 halflight_status halflight_set_triangles(halflight_job* job, const uint32_t* indices, size_t triangles, const uint32_t* material) {
-  if (is_running(job)) { return HALFLIGHT_INVALID; }
-  if (job == nullptr || (indices == nullptr && triangles > 0)) { return refuse(job, "there are no indices"); }
-  if (triangles > std::numeric_limits<std::uint32_t>::max() / 3) { return refuse(job, "there are more triangles than can be counted"); }
-  job->indices = {indices, 3 * triangles};
-  job->material = {material, material == nullptr ? 0 : triangles};
-  return HALFLIGHT_OK;
+  return unless_out_of_memory(job, HALFLIGHT_OUT_OF_MEMORY, [&]() -> halflight_status {
+    if (is_running(job)) { return HALFLIGHT_INVALID; }
+    if (job == nullptr || (indices == nullptr && triangles > 0)) { return refuse(job, "there are no indices"); }
+    if (triangles > std::numeric_limits<std::uint32_t>::max() / 3) { return refuse(job, "there are more triangles than can be counted"); }
+    forget_results(*job);
+    job->indices = {indices, 3 * triangles};
+    job->material = {material, material == nullptr ? 0 : triangles};
+    return HALFLIGHT_OK;
+  });
 }
 
 int halflight_add_material(halflight_job* job, const char* name, const double reflectance[3], const double emission[3]) {
-  if (is_running(job)) { return -HALFLIGHT_INVALID; }
-  if (job == nullptr || reflectance == nullptr) { return -refuse(job, "a material needs a reflectance"); }
-  radiosity::Material material{
-      name == nullptr ? "material" : name, {reflectance[0], reflectance[1], reflectance[2]}, radiosity::Color(0.0)};
-  if (emission != nullptr) { material.emission = {emission[0], emission[1], emission[2]}; }
-  if (auto sentence = radiosity::fault(material)) { return -refuse(job, std::move(*sentence)); }
-  job->materials.push_back(std::move(material));
-  return static_cast<int>(job->materials.size()) - 1;
+  return unless_out_of_memory(job, -HALFLIGHT_OUT_OF_MEMORY, [&]() -> int {
+    if (is_running(job)) { return -HALFLIGHT_INVALID; }
+    if (job == nullptr || reflectance == nullptr) { return -refuse(job, "a material needs a reflectance"); }
+    radiosity::Material material{
+        name == nullptr ? "material" : name, {reflectance[0], reflectance[1], reflectance[2]}, radiosity::Color(0.0)};
+    if (emission != nullptr) { material.emission = {emission[0], emission[1], emission[2]}; }
+    if (auto sentence = radiosity::fault(material)) { return -refuse(job, std::move(*sentence)); }
+    job->materials.push_back(std::move(material));
+    return static_cast<int>(job->materials.size()) - 1;
+  });
 }
 
 halflight_status halflight_set_number(halflight_job* job, const char* option, double value) {
-  if (is_running(job)) { return HALFLIGHT_INVALID; }
-  if (job == nullptr || option == nullptr) { return refuse(job, "there is no option without a name"); }
-  for (const NumberOption& known : number_options) {
-    if (known.name != option) { continue; }
-    if (!(value >= known.least && value <= known.most) || (known.whole && value != std::floor(value))) {
-      return refuse(job, std::string(option) + " cannot be " + std::to_string(value));
+  return unless_out_of_memory(job, HALFLIGHT_OUT_OF_MEMORY, [&]() -> halflight_status {
+    if (is_running(job)) { return HALFLIGHT_INVALID; }
+    if (job == nullptr || option == nullptr) { return refuse(job, "there is no option without a name"); }
+    for (const NumberOption& known : number_options) {
+      if (known.name != option) { continue; }
+      if (!(value >= known.least && value <= known.most) || (known.whole && value != std::floor(value))) {
+        return refuse(job, std::string(option) + " cannot be " + std::to_string(value));
+      }
+      known.set(job->options, value);
+      return HALFLIGHT_OK;
     }
-    known.set(job->options, value);
-    return HALFLIGHT_OK;
-  }
-  return refuse(job, "there is no option '" + std::string(option) + "'", HALFLIGHT_NOTHING);
+    return refuse(job, "there is no option '" + std::string(option) + "'", HALFLIGHT_NOTHING);
+  });
 }
 
 halflight_status halflight_set_progress(halflight_job* job, halflight_progress callback, void* user) {
-  if (job == nullptr || is_running(job)) { return HALFLIGHT_INVALID; }
-  job->progress = callback;
-  job->user = user;
-  return HALFLIGHT_OK;
+  return unless_out_of_memory(job, HALFLIGHT_OUT_OF_MEMORY, [&]() -> halflight_status {
+    if (job == nullptr || is_running(job)) { return HALFLIGHT_INVALID; }
+    job->progress = callback;
+    job->user = user;
+    return HALFLIGHT_OK;
+  });
 }
 
 halflight_status halflight_run(halflight_job* job) {
-  if (job == nullptr || is_running(job)) { return HALFLIGHT_INVALID; }
-  std::atomic<bool> stop{false};
-  radiosity::Control control;
-  control.cancel = &stop;
-  if (job->progress != nullptr) {
-    control.progress = [&](std::string_view stage, double fraction) {
-      if (job->progress(job->user, std::string(stage).c_str(), fraction) != 0) { stop.store(true, std::memory_order_relaxed); }
-    };
-  }
-  job->baked.reset();
-  job->lightmap.reset();
-  job->changes.clear();
-  radiosity::BakeOutcome outcome;
-  {
-    const Running running(*job);
-    outcome = radiosity::bake({job->positions, job->indices, job->materials, job->material, job->stride}, job->options, control);
-  }
-  if (!outcome.baked) {
-    std::string message;
-    for (const std::string& sentence : outcome.failure.sentences) { message += (message.empty() ? "" : "\n") + sentence; }
-    using Kind = radiosity::Failure::Kind;
-    const Kind kind = outcome.failure.kind;
-    return refuse(job, std::move(message),
-                  kind == Kind::cancelled       ? HALFLIGHT_CANCELLED
-                  : kind == Kind::out_of_memory ? HALFLIGHT_OUT_OF_MEMORY
-                                                : HALFLIGHT_INVALID);
-  }
-  job->baked = std::move(outcome.baked);
-  for (const radiosity::Change& change : job->baked->changes) { job->changes.push_back(radiosity::sentence(change)); }
-  const radiosity::Audit& audit = job->baked->audit;
-  job->changes.insert(job->changes.end(), audit.warnings.begin(), audit.warnings.end());
-  if (!audit.shortage.empty()) { job->changes.push_back(audit.shortage); }
-  return HALFLIGHT_OK;
+  return unless_out_of_memory(job, HALFLIGHT_OUT_OF_MEMORY, [&]() -> halflight_status {
+    if (job == nullptr || is_running(job)) { return HALFLIGHT_INVALID; }
+    std::atomic<bool> stop{false};
+    radiosity::Control control;
+    control.cancel = &stop;
+    if (job->progress != nullptr) {
+      control.progress = [&](std::string_view stage, double fraction) {
+        if (job->progress(job->user, std::string(stage).c_str(), fraction) != 0) { stop.store(true, std::memory_order_relaxed); }
+      };
+    }
+    forget_results(*job);
+    radiosity::BakeOutcome outcome;
+    {
+      const Running running(*job);
+      outcome = radiosity::bake({job->positions, job->indices, job->materials, job->material, job->stride}, job->options, control);
+    }
+    if (!outcome.baked) {
+      std::string message;
+      for (const std::string& sentence : outcome.failure.sentences) { message += (message.empty() ? "" : "\n") + sentence; }
+      using Kind = radiosity::Failure::Kind;
+      const Kind kind = outcome.failure.kind;
+      return refuse(job, std::move(message),
+                    kind == Kind::cancelled       ? HALFLIGHT_CANCELLED
+                    : kind == Kind::out_of_memory ? HALFLIGHT_OUT_OF_MEMORY
+                                                  : HALFLIGHT_INVALID);
+    }
+    job->baked = std::move(outcome.baked);
+    for (const radiosity::Change& change : job->baked->changes) { job->changes.push_back(radiosity::sentence(change)); }
+    const radiosity::Audit& audit = job->baked->audit;
+    job->changes.insert(job->changes.end(), audit.warnings.begin(), audit.warnings.end());
+    if (!audit.shortage.empty()) { job->changes.push_back(audit.shortage); }
+    return HALFLIGHT_OK;
+  });
 }
 
 const char* halflight_message(const halflight_job* job) { return job == nullptr ? "there is no job" : job->message.c_str(); }
 
 halflight_status halflight_read(halflight_job* job, int result, float* out, size_t count) {
-  if (job == nullptr) { return HALFLIGHT_INVALID; }
-  const bool of_lightmap = result == HALFLIGHT_LIGHTMAP_TEXELS || result == HALFLIGHT_LIGHTMAP_COORDINATES;
-  if (!job->baked) { return refuse(job, "there is no result before halflight_run", HALFLIGHT_NOT_RUN); }
-  if (of_lightmap && !job->lightmap) { return refuse(job, "there is no lightmap before halflight_make_lightmap", HALFLIGHT_NOT_RUN); }
-  switch (result) {
-    case HALFLIGHT_CORNER_COLORS:
-      return copy(job, job->baked->colors.corner, "colours", out, count);
-    case HALFLIGHT_VERTEX_COLORS:
-      return copy(job, job->baked->colors.vertex, "colours", out, count);
-    case HALFLIGHT_LIGHTMAP_TEXELS:
-      return copy(job, job->lightmap->texels, "texels", out, count);
-    case HALFLIGHT_LIGHTMAP_COORDINATES:
-      return copy(job, job->lightmap->coordinates, "coordinates", out, count);
-  }
-  return refuse(job, "there is no result of the number " + std::to_string(result), HALFLIGHT_NOTHING);
+  return unless_out_of_memory(job, HALFLIGHT_OUT_OF_MEMORY, [&]() -> halflight_status {
+    if (job == nullptr) { return HALFLIGHT_INVALID; }
+    const bool of_lightmap = result == HALFLIGHT_LIGHTMAP_TEXELS || result == HALFLIGHT_LIGHTMAP_COORDINATES;
+    if (!job->baked) { return refuse(job, "there is no result before halflight_run", HALFLIGHT_NOT_RUN); }
+    if (of_lightmap && !job->lightmap) { return refuse(job, "there is no lightmap before halflight_make_lightmap", HALFLIGHT_NOT_RUN); }
+    switch (result) {
+      case HALFLIGHT_CORNER_COLORS:
+        return copy(job, job->baked->colors.corner, "colours", out, count);
+      case HALFLIGHT_VERTEX_COLORS:
+        return copy(job, job->baked->colors.vertex, "colours", out, count);
+      case HALFLIGHT_LIGHTMAP_TEXELS:
+        return copy(job, job->lightmap->texels, "texels", out, count);
+      case HALFLIGHT_LIGHTMAP_COORDINATES:
+        return copy(job, job->lightmap->coordinates, "coordinates", out, count);
+    }
+    return refuse(job, "there is no result of the number " + std::to_string(result), HALFLIGHT_NOTHING);
+  });
 }
 
 halflight_status halflight_at(const halflight_job* job, size_t triangle, const float point[3], int back, float rgb[3]) {
@@ -303,36 +276,40 @@ halflight_status halflight_at(const halflight_job* job, size_t triangle, const f
 }
 
 halflight_status halflight_make_lightmap(halflight_job* job, double texel, uint32_t most, uint32_t* width, uint32_t* height) {
-  if (job == nullptr || width == nullptr || height == nullptr) { return refuse(job, "the size of a lightmap needs a place to go to"); }
-  if (!job->baked) { return refuse(job, "there is no lightmap before halflight_run", HALFLIGHT_NOT_RUN); }
-  if (!(texel >= 0.0 && std::isfinite(texel)) || most < 64) {
-    return refuse(job, "a lightmap has texels of some size, and sides of 64 texels or more");
-  }
-  job->lightmap.reset();
-  try {
-    const JobPolygons polygons(*job);
-    constexpr double usual_texels = 1 << 20;
-    if (texel == 0.0) { texel = std::sqrt(polygons.area() / usual_texels); }
-    radiosity::Lightmap map = radiosity::make_lightmap(job->baked->light, polygons.view(), texel, most);
-    if (map.texels.empty()) { return refuse(job, "no triangle has light", HALFLIGHT_NOTHING); }
-    job->lightmap = std::move(map);
-  } catch (const std::bad_alloc&) { return HALFLIGHT_OUT_OF_MEMORY; }
-  *width = job->lightmap->width;
-  *height = job->lightmap->height;
-  return HALFLIGHT_OK;
+  return unless_out_of_memory(job, HALFLIGHT_OUT_OF_MEMORY, [&]() -> halflight_status {
+    if (job == nullptr || width == nullptr || height == nullptr) { return refuse(job, "the size of a lightmap needs a place to go to"); }
+    if (!job->baked) { return refuse(job, "there is no lightmap before halflight_run", HALFLIGHT_NOT_RUN); }
+    if (!(texel >= 0.0 && std::isfinite(texel)) || most < 64) {
+      return refuse(job, "a lightmap has texels of some size, and sides of 64 texels or more");
+    }
+    job->lightmap.reset();
+    {
+      const JobPolygons polygons(*job);
+      constexpr double usual_texels = 1 << 20;
+      if (texel == 0.0) { texel = std::sqrt(polygons.area() / usual_texels); }
+      radiosity::Lightmap map = radiosity::make_lightmap(job->baked->light, polygons.view(), texel, most);
+      if (map.texels.empty()) { return refuse(job, "no triangle has light", HALFLIGHT_NOTHING); }
+      job->lightmap = std::move(map);
+    }
+    *width = job->lightmap->width;
+    *height = job->lightmap->height;
+    return HALFLIGHT_OK;
+  });
 }
 
 halflight_status halflight_figure(halflight_job* job, const char* name, double* value) {
-  if (job == nullptr || name == nullptr || value == nullptr) { return refuse(job, "a figure has a name, and a place to go to"); }
-  if (!job->baked) { return refuse(job, "there are no figures before halflight_run", HALFLIGHT_NOT_RUN); }
-  for (const Figure& figure : figures) {
-    if (figure.name != name) { continue; }
-    const std::optional<double> found = figure.value(*job->baked);
-    if (!found) { return refuse(job, std::string(name) + " was not measured", HALFLIGHT_NOTHING); }
-    *value = *found;
-    return HALFLIGHT_OK;
-  }
-  return refuse(job, "there is no figure '" + std::string(name) + "'", HALFLIGHT_NOTHING);
+  return unless_out_of_memory(job, HALFLIGHT_OUT_OF_MEMORY, [&]() -> halflight_status {
+    if (job == nullptr || name == nullptr || value == nullptr) { return refuse(job, "a figure has a name, and a place to go to"); }
+    if (!job->baked) { return refuse(job, "there are no figures before halflight_run", HALFLIGHT_NOT_RUN); }
+    for (const Figure& figure : figures) {
+      if (figure.name != name) { continue; }
+      const std::optional<double> found = figure.value(*job->baked);
+      if (!found) { return refuse(job, std::string(name) + " was not measured", HALFLIGHT_NOTHING); }
+      *value = *found;
+      return HALFLIGHT_OK;
+    }
+    return refuse(job, "there is no figure '" + std::string(name) + "'", HALFLIGHT_NOTHING);
+  });
 }
 
 const char* halflight_change(const halflight_job* job, size_t number) {

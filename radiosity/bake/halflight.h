@@ -48,7 +48,8 @@ HALFLIGHT_API const char* halflight_version(void);
 HALFLIGHT_API halflight_job* halflight_create(void);
 HALFLIGHT_API void halflight_destroy(halflight_job* job);
 
-/* `count` vertices of x y z, `stride` floats from one to the next. The caller keeps the buffer, unchanged, until halflight_run returns. */
+/* `count` vertices of x y z, `stride` floats from one to the next. The caller keeps the buffer, unchanged, until halflight_run returns, or
+ * longer for halflight_make_lightmap. To set buffers again forgets the results. */
 HALFLIGHT_API halflight_status halflight_set_positions(halflight_job* job, const float* xyz, size_t count, size_t stride);
 /* Three indices a triangle, and of each triangle its material, or null: all have material 0. Kept by the caller, as above. */
 HALFLIGHT_API halflight_status halflight_set_triangles(halflight_job* job, const uint32_t* indices, size_t triangles,
@@ -57,12 +58,12 @@ HALFLIGHT_API halflight_status halflight_set_triangles(halflight_job* job, const
 HALFLIGHT_API int halflight_add_material(halflight_job* job, const char* name, const double reflectance[3], const double emission[3]);
 
 /* Options by name; all have defaults:
- *     epsilon, min_area   largest form factor of a link, smallest patch (share of all area)      0.005, 6e-5
- *     error               refine until the measured relative error is at most this               off
- *     seconds             refine, the most promising first, for this long                        off
+ *     epsilon, min_area   largest form factor of a link, smallest patch (share of the lit area)  0.005, 6e-5
+ *     error               refine until the measured relative error is at most this; 0: off       0
+ *     seconds             refine, the most promising first, for this long; 0: off                0
  *     audit_points        points at which the error is measured; 0: it is not                    2000
  *     threads, seed       0 threads: all; results do not depend on the number                    0, 1
- *     memory              bytes that a run may take; it is coarser where that is too little      off
+ *     memory              bytes that a run may take; coarser where that is too little; 0: off    0
  *     weld                vertices closer than this are one; share of the scene's diagonal       1e-6
  *     two_sided, merge    1 or 0: surfaces reflect on both sides; coplanar triangles are merged  0, 1 */
 HALFLIGHT_API halflight_status halflight_set_number(halflight_job* job, const char* option, double value);

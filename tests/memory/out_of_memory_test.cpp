@@ -3,11 +3,14 @@
 // Memory that runs out, and threads that cannot be started: solve() refuses, or its answer is right, and it gives back what it took.
 
 #include <atomic>
+#include <cstdint>
 #include <random>
 #include <vector>
 
 #include <pthread.h>
 
+#include <radiosity/bake/halflight.h>
+#include <radiosity/bake/bake.hpp>
 #include <radiosity/radiosity.hpp>
 #include <radiosity/result/outcome.hpp>
 #include <radiosity/scene/material.hpp>
@@ -106,6 +109,66 @@ void check_all_failures(const radiosity::Scene& scene, const Options& options, s
 }
 
 }  // namespace
+
+TEST_CASE("whichever allocation fails, light that is baked is there, or refused, and nothing is thrown") {
+  const std::vector<radiosity::Material> materials{
+      {"a name that is too long to stand in a string itself", radiosity::Color(0.5), radiosity::Color(1.0)}};
+  const std::vector<float> xyz{0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
+  const std::vector<std::uint32_t> indices{0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3}, material{0, 0, 0, 0};
+  radiosity::BakeOptions options;
+  options.solve = small();
+  const radiosity::MeshView mesh{xyz, indices, materials, material};
+  const std::uint64_t before = heap::allocations();
+  REQUIRE(radiosity::bake(mesh, options).baked);
+  const std::uint64_t count = heap::allocations() - before;
+  int refused = 0;
+  const auto check = [&](std::uint64_t n) {
+    const std::int64_t live = heap::live();
+    {
+      radiosity::BakeOutcome outcome;
+      {
+        const heap::Failure failure{n, heap::Fails::once};
+        CHECK_NOTHROW(outcome = radiosity::bake(mesh, options));
+      }
+      CHECK((outcome.baked || outcome.failure.kind == Failure::Kind::out_of_memory));
+      refused += outcome.baked ? 0 : 1;
+    }
+    CHECK(heap::live() == live);
+  };
+  for (std::uint64_t n = 1; n <= 16; ++n) { check(n); }
+  for_failing_allocations(count, 5, check);
+  CHECK(refused > 16);
+}
+
+TEST_CASE("whichever allocation fails, the C interface returns a status") {
+  const std::vector<float> xyz{0, 0, 0, 1, 0, 0, 0, 1, 0};
+  const std::vector<std::uint32_t> indices{0, 1, 2};
+  const double grey[3] = {0.5, 0.5, 0.5};
+  bool all = false;
+  for (std::uint64_t n = 1; !all; n += n < 100 ? 1 : n / 8) {
+    CAPTURE(n);
+    const std::int64_t live = heap::live();
+    halflight_job* job = nullptr;
+    {
+      const heap::Failure failure{n, heap::Fails::once};
+      std::uint32_t width = 0, height = 0;
+      job = halflight_create();
+      if (job != nullptr) {
+        // Called all the same after one was refused, as a careless program does.
+        static_cast<void>(halflight_add_material(job, "a name that is too long to stand in a string itself", grey, grey));
+        static_cast<void>(halflight_set_number(job, "no such option, told in a long sentence", 1.0));
+        static_cast<void>(halflight_set_number(job, "audit_points", 0.0));
+        static_cast<void>(halflight_set_positions(job, xyz.data(), 3, 3));
+        static_cast<void>(halflight_set_triangles(job, indices.data(), 1, nullptr));
+        static_cast<void>(halflight_run(job));
+        static_cast<void>(halflight_make_lightmap(job, 0.1, 64, &width, &height));
+      }
+      all = !failure.happened();
+      halflight_destroy(job);
+    }
+    CHECK(heap::live() == live);
+  }
+}
 
 TEST_CASE("whichever allocation fails, F-refinement has a coarser solution, or refuses, and nothing is lost") {
   check_all_failures(apps::stress::room_with_box(), small(), 1);

@@ -212,6 +212,55 @@ TEST_CASE("bake: what cannot be solved is refused with a sentence, polygons that
   CHECK(outcome.baked->colors.vertex[3].x == 0.0);  // without a triangle
 }
 
+TEST_CASE("bake: corners that are left out have the light of others at their place, whatever else is no place at all") {
+  const std::vector<radiosity::Material> materials{{"dim", glm::dvec3(0.0), glm::dvec3(1.0)}, {"bright", glm::dvec3(0.0), glm::dvec3(2.0)}};
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  // Two triangles, and of each a corner again in one without area; the corner between them is nowhere.
+  const std::vector<float> xyz{0, 0, 0, 1, 0, 0, 0, 1, 0, 10, 0, 0, 11, 0, 0, 10, 1, 0, nan, 0, 0};
+  const std::vector<std::uint32_t> indices{0, 1, 2, 3, 4, 5, 0, 6, 3, 0, 0, 3, 0, 3, 99}, material{0, 1, 0, 0, 0};
+  const radiosity::BakeOutcome outcome = radiosity::bake({xyz, indices, materials, material}, quick());
+  REQUIRE(outcome.baked);
+  const radiosity::Baked& baked = *outcome.baked;
+  CHECK(baked.colors.without == 9);
+  const std::vector<double> expected{1, 1, 1, 2, 2, 2, 1, 0, 2, 1, 1, 2, 1, 2, 0};
+  for (std::size_t c = 0; c < expected.size(); ++c) {
+    CAPTURE(c);
+    CHECK(baked.colors.corner[c].x == expected[c]);
+  }
+  CHECK(baked.light.front(0));
+  CHECK_FALSE(baked.light.front(2));
+  CHECK_FALSE(baked.light.front(5));
+  CHECK_FALSE(radiosity::BakedLight{}.front(0));
+}
+
+TEST_CASE("bake: a sun in the mesh, however far, leaves the rest as it is") {
+  const std::vector<radiosity::Material> materials{{"grey", glm::dvec3(0.5), glm::dvec3(0.0)}, {"sun", glm::dvec3(0.0), glm::dvec3(1.0)}};
+  for (const float away : {1e2f, 1e4f, 1e7f, 1e9f}) {
+    // A block of 2 cm on a square of 1 m, under a sun that is as wide as it is far.
+    std::vector<float> xyz{-0.5f, -0.5f, 0,    0.5f,  -0.5f, 0,    0.5f, 0.5f, 0,    -0.5f, 0.5f,  0,
+                           -away, -away, away, -away, away,  away, away, away, away, away,  -away, away};
+    std::vector<std::uint32_t> indices{0, 1, 2, 0, 2, 3, 4, 5, 6, 4, 6, 7}, material{0, 0, 1, 1};
+    for (int i = 0; i < 8; ++i) {
+      for (int axis = 0; axis < 3; ++axis) { xyz.push_back(0.02f * static_cast<float>(i >> axis & 1) + (axis == 2 ? 0.01f : 0.0f)); }
+    }
+    for (const std::uint32_t i : {0u, 2u, 3u, 0u, 3u, 1u, 4u, 5u, 7u, 4u, 7u, 6u, 0u, 1u, 5u, 0u, 5u, 4u,
+                                  2u, 6u, 7u, 2u, 7u, 3u, 0u, 4u, 6u, 0u, 6u, 2u, 1u, 3u, 7u, 1u, 7u, 5u}) {
+      indices.push_back(8 + i);
+      if (indices.size() % 3 == 0) { material.push_back(0); }
+    }
+    const radiosity::BakeOutcome outcome = radiosity::bake({xyz, indices, materials, material}, quick());
+    CAPTURE(away);
+    for (const std::string& sentence : outcome.failure.sentences) { UNSCOPED_INFO(sentence); }
+    REQUIRE(outcome.baked);
+    CHECK(outcome.baked->faces == 8);
+    CHECK(outcome.baked->changes.size() == 1);  // coplanar triangles
+    // F of a square of sides 2 a at a distance of a, over its middle: 4 / pi * atan(1 / sqrt 2) / sqrt 2.
+    const auto light = outcome.baked->light.radiosity(0, {0.3, -0.3, 0.0});
+    REQUIRE(light);
+    CHECK(light->x == Approx(0.5 * 4.0 / 3.14159265358979 * std::atan(1.0 / std::sqrt(2.0)) / std::sqrt(2.0)).epsilon(0.01));
+  }
+}
+
 namespace {
 
 glm::dvec3 sample(const radiosity::Lightmap& map, const glm::dvec2& at) { return texture::sample(map.texels, map.width, map.height, at); }
