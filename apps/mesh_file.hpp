@@ -2,7 +2,8 @@
 #pragma once
 
 // Polygon meshes from files: OBJ (Wavefront), PLY (Turk 1994: ascii, binary little and big endian), OFF (Geomview: OFF, COFF,
-// NOFF, STOFF and their combinations). Positions and faces are read into a builder, everything else is passed over.
+// NOFF, STOFF and their combinations). Positions and faces are read into a builder, with their colours and texture coordinates; everything
+// else is passed over.
 //
 // Reading gives the mesh or a list of errors; each says where it lies and what was expected. Whether the faces make a surface is
 // not asked here: that is the builder's question. No input makes it throw, crash, run without end, or hold more memory than
@@ -14,6 +15,9 @@
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 
 #include <brep/builder_input.hpp>
 
@@ -29,6 +33,12 @@ struct Mesh {
   // What formats with materials and groups say of each face: empty where a file has none. Libraries are files with materials.
   std::vector<std::uint32_t> face_material, face_group;
   std::vector<std::string> materials, groups, libraries;
+
+  // In sRGB from 0 to 1, NaN where a vertex or a face has none; as far as there are any. A face's own colour counts more.
+  std::vector<glm::vec3> vertex_color, face_color;
+  // Texture coordinates of all corners of all faces in their order, as far as there are any; (0, 0) is the beginning of the last row of a
+  // picture.
+  std::vector<glm::vec2> corner_place;
 };
 
 struct MeshResult : ErrorReport {

@@ -14,6 +14,7 @@
 
 #include "apps/bytes.hpp"
 #include "apps/intake/gltf_data.hpp"
+#include "apps/intake/gltf_looks.hpp"
 #include "apps/intake/json_reader.hpp"
 #include "apps/intake/model.hpp"
 #include "apps/mesh_file/reading.hpp"
@@ -45,10 +46,11 @@ class GltfReader {
     }
     GltfData data(*root, binary_, side_file_);
     data_ = &data;
-    model_.materials = read_gltf_materials(*root, data, notes_);
+    model_.materials = read_gltf_materials(*root, data, colors_, notes_);
     default_material_ = static_cast<std::uint32_t>(model_.materials.size());
     nodes();
     if (errors_.count() == 0 && model_.polygons() == 0) { error(root->offset(), "the scene of this file has no triangles" + why_); }
+    if (errors_.count() == 0) { colors_.apply(model_, notes_); }
     model_.notes = notes_.take();
     return take();
   }
@@ -220,6 +222,8 @@ class GltfReader {
       model_.materials.push_back({"default", {}, radiosity::Color(0.0), false});
     }
     const bool mirrored = glm::determinant(glm::dmat3(matrix)) < 0.0;
+    const std::vector<glm::dvec2> places = gltf_texture_places(*root_, *data_, primitive, material, vertices);
+    const std::vector<double> paint = gltf_vertex_colors(*root_, *data_, primitive, vertices, notes_, place);
     const std::size_t step = mode == 4 ? 3 : 1;
     for (std::size_t i = 0; i + 2 < count; i += step) {
       const bool odd = mode == 5 && i % 2 == 1;
@@ -229,6 +233,16 @@ class GltfReader {
         corners[k] = first + static_cast<std::uint32_t>(vertex(k == 0 ? a : (k == 1) != mirrored ? b : c));
       }
       model_.polygon(corners, static_cast<std::uint32_t>(material.value_or(default_material_)), group);
+      if (!places.empty()) {
+        colors_.lies_at(model_, std::array{places[corners[0] - first], places[corners[1] - first], places[corners[2] - first]});
+      }
+      if (!paint.empty()) {
+        radiosity::Color sum(0.0);
+        for (const std::uint32_t corner : corners) {
+          for (int k = 0; k < 3; ++k) { sum[k] += paint[3 * (corner - first) + static_cast<std::size_t>(k)] / 3.0; }
+        }
+        colors_.tint(model_, sum);
+      }
     }
   }
 
@@ -283,6 +297,7 @@ class GltfReader {
   std::string why_;
   bool too_large_ = false;
   Model model_;
+  PolygonColors colors_;
   Notes notes_;
   Errors errors_;
 };

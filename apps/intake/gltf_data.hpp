@@ -66,7 +66,4 @@ class GltfData {
 // A URI such as "a%20b.bin" as a name; nothing when it is no file beside this one.
 [[nodiscard]] std::optional<std::string> file_of_uri(std::string_view uri);
 
-// In the order of the file.
-[[nodiscard]] std::vector<ModelMaterial> read_gltf_materials(const JsonValue& root, GltfData& data, Notes& notes);
-
 }  // namespace apps::intake

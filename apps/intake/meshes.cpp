@@ -2,16 +2,21 @@
 // The formats of polygon meshes (mesh_file.hpp) as scenes: PLY and OFF are geometry alone, OBJ has groups, and materials in files of its
 // own.
 #include <algorithm>
-#include <array>
+#include <cmath>
+#include <memory>
 #include <numbers>
 #include <optional>
 #include <string>
 #include <unordered_map>
+#include <vector>
 
 #include <brep/builder_input.hpp>
 
+#include <radiosity/camera/tone.hpp>
+
 #include "apps/file_kind.hpp"
 #include "apps/intake/model.hpp"
+#include "apps/intake/polygon_colors.hpp"
 #include "apps/intake/texture.hpp"
 #include "apps/mesh_file.hpp"
 #include "apps/mesh_file/reading.hpp"
@@ -52,7 +57,8 @@ std::string picture_of(const Lines& lines) {
 // MTL, the materials of OBJ files: Kd is the reflectance; Ke, the radiance that a surface sends out, becomes its exitance pi Ke. Nothing in
 // such a file is an error: what cannot be read is noted, and the material keeps what it has. Gives the materials of these names what the
 // library says about them.
-void read_obj_materials(const std::string& library, const SideFile& side_file, std::vector<ModelMaterial>& materials, Notes& notes) {
+void read_obj_materials(const std::string& library, const SideFile& side_file, std::vector<ModelMaterial>& materials, PolygonColors& colors,
+                        Notes& notes) {
   std::string fault;
   const auto text = file_of_name(library, side_file, fault);
   if (!text) { return notes.add("the materials in " + mesh_file::shown(library) + " are not known: it " + fault); }
@@ -60,9 +66,10 @@ void read_obj_materials(const std::string& library, const SideFile& side_file, s
   for (std::size_t i = 0; i < materials.size(); ++i) { index.emplace(materials[i].name, i); }
   ModelMaterial unused;
   ModelMaterial* material = &unused;
-  PictureMeans<std::string> pictures;
-  std::unordered_map<ModelMaterial*, std::array<std::optional<radiosity::Color>, 2>> means;  // of Kd and Ke, whichever comes first
-  std::vector<ModelMaterial*> unseen;                                                        // with a picture for Kd that is not read
+  Pictures<std::string> pictures;
+  std::vector<ModelMaterial*> with_picture;  // for Kd, whichever comes first
+  std::vector<ModelMaterial*> glowing;       // for Ke
+  std::vector<ModelMaterial*> unseen;        // with a picture for Kd that is not read
   Lines lines(*text, true, true);
   while (lines.next()) {
     const std::string_view word = lines.words()[0];
@@ -84,15 +91,20 @@ void read_obj_materials(const std::string& library, const SideFile& side_file, s
       }
     } else if (word == "map_Kd" || word == "map_Ke") {
       const std::string name = picture_of(lines);
-      const auto mean = pictures.of(name, [&] {
+      const bool reflects = word == "map_Kd";
+      const std::shared_ptr<const Picture>& picture = pictures.of(name, [&] {
         const auto bytes = file_of_name(name, side_file, fault);
-        return bytes ? mean_color(*bytes) : std::nullopt;
+        if (!bytes) { notes.add("a picture on surfaces is not there: " + mesh_file::shown(name) + " " + fault, place); }
+        return bytes ? Picture::read(*bytes) : nullptr;
       });
-      if (mean) { means[material][word == "map_Kd" ? 0 : 1] = mean; }
-      if (!mean && word == "map_Kd") { unseen.push_back(material); }
-      notes.add(mean ? "pictures on surfaces count with their mean colour"
-                     : "textures are not read: " + std::string(word == "map_Kd" ? "Kd" : "Ke") + " stands for the picture",
-                place);
+      if (picture) {
+        (reflects ? with_picture : glowing).push_back(material);
+        colors.picture(static_cast<std::uint32_t>(material - materials.data()),
+                       reflects ? PolygonColors::Of::reflectance : PolygonColors::Of::emission, picture, place);
+        continue;
+      }
+      if (reflects) { unseen.push_back(material); }
+      notes.add("textures are not read: " + std::string(reflects ? "Kd" : "Ke") + " stands for the picture", place);
     } else if (word == "d" || word == "Tr") {
       const auto value = mesh_file::to_number(lines.words().back());
       if (value && *value != (word == "d" ? 1.0 : 0.0)) { notes.add("materials that let light through are taken as opaque", place); }
@@ -102,12 +114,28 @@ void read_obj_materials(const std::string& library, const SideFile& side_file, s
   for (ModelMaterial* const of : unseen) {
     if (of->reflectance && radiosity::is_black(*of->reflectance)) { of->reflectance.reset(); }
   }
-  for (const auto& [of, mean] : means) {
-    if (mean[0]) {
-      of->reflectance = radiosity::is_black(of->reflectance.value_or(radiosity::Color(0.0))) ? *mean[0] : *of->reflectance * *mean[0];
-    }
-    if (mean[1]) { of->emission = radiosity::is_black(of->emission) ? std::numbers::pi * *mean[1] : of->emission * *mean[1]; }
+  for (ModelMaterial* const of : with_picture) {
+    if (radiosity::is_black(of->reflectance.value_or(radiosity::Color(0.0)))) { of->reflectance = radiosity::Color(1.0); }
   }
+  for (ModelMaterial* const of : glowing) {
+    if (radiosity::is_black(of->emission)) { of->emission = radiosity::Color(std::numbers::pi); }
+  }
+}
+
+// What a face has of its own, or the mean of what its vertices have, in linear light; nothing when that is not known of all of them.
+std::optional<radiosity::Color> color_of(const Mesh& mesh, std::uint32_t face) {
+  radiosity::Color sum(0.0);
+  const auto add = [&](const std::vector<glm::vec3>& list, std::size_t i) {
+    if (i >= list.size() || std::isnan(list[i].x)) { return false; }
+    for (int k = 0; k < 3; ++k) { sum[k] += radiosity::srgb_decode(static_cast<double>(list[i][k])); }
+    return true;
+  };
+  if (add(mesh.face_color, face)) { return sum; }
+  const auto corners = mesh.builder.corners(face);
+  for (const std::uint32_t v : corners) {
+    if (!add(mesh.vertex_color, v)) { return std::nullopt; }
+  }
+  return sum / static_cast<double>(corners.size());
 }
 
 ModelResult read(std::string_view bytes, const MeshFormat& format, const SideFile& side_file) {
@@ -124,10 +152,20 @@ ModelResult read(std::string_view bytes, const MeshFormat& format, const SideFil
   model.groups = mesh.groups;
   if (model.groups.empty()) { model.groups.emplace_back("mesh"); }
   const auto of = [](const std::vector<std::uint32_t>& list, std::uint32_t f) { return f < list.size() ? list[f] : 0; };
+  PolygonColors colors;
+  std::vector<glm::dvec2> places;
   for (std::uint32_t f = 0; f < builder.face_count(); ++f) {
     model.polygon(builder.corners(f), of(mesh.face_material, f), of(mesh.face_group, f), of(mesh.face_line, f));
+    if (const auto color = color_of(mesh, f)) { colors.tint(model, *color); }
+    if (model.corners.size() > mesh.corner_place.size()) { continue; }
+    places.clear();
+    for (std::size_t c = model.first_corner[f]; c < model.corners.size(); ++c) {
+      places.emplace_back(mesh.corner_place[c].x, 1.0F - mesh.corner_place[c].y);
+    }
+    colors.lies_at(model, places);
   }
-  for (const std::string& library : mesh.libraries) { read_obj_materials(library, side_file, model.materials, notes); }
+  for (const std::string& library : mesh.libraries) { read_obj_materials(library, side_file, model.materials, colors, notes); }
+  colors.apply(model, notes);
   model.notes = std::move(mesh.notes);
   for (std::string& note : notes.take()) { model.notes.push_back(std::move(note)); }
   return {std::move(result), std::move(model)};

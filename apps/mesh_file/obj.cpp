@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Wavefront OBJ: v and f lines. A corner is v, v/vt, v//vn or v/vt/vn; a negative number counts back from the last vertex. A face belongs
-// to the object (o), the group (g) and the material (usemtl) that were named last.
+// Wavefront OBJ: v, vt and f lines. A corner is v, v/vt, v//vn or v/vt/vn; a negative number counts back from the last vertex. Three
+// numbers behind a position are the colour of the vertex. A face belongs to the object (o), the group (g) and the material (usemtl) that
+// were named last.
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -16,7 +17,7 @@ namespace apps::mesh_file {
 namespace {
 
 // Statements that say nothing about the shape of the faces.
-constexpr std::array<std::string_view, 15> silent{"vt",  "vn",       "vp",       "s",     "mg",         "usemap",    "maplib", "bevel",
+constexpr std::array<std::string_view, 14> silent{"vn",  "vp",       "s",        "mg",    "usemap",     "maplib",    "bevel",
                                                   "lod", "c_interp", "d_interp", "ctech", "shadow_obj", "trace_obj", "stech"};
 // Points, lines, curves and free-form surfaces: they are geometry, and are not read.
 constexpr std::array<std::string_view, 21> unread{"p",    "l",    "curv", "curv2", "surf", "cstype", "deg", "bmat", "step", "parm", "trim",
@@ -39,6 +40,7 @@ class ObjReader {
   void run() {
     while (!out_.full() && lines_.next()) { statement(); }
     if (out_.full()) { return; }
+    scale_colors(out_.mesh);
     for (const ForwardReference& f : forward_) {
       if (out_.full()) { return; }
       if (f.number > count()) {
@@ -75,6 +77,8 @@ class ObjReader {
     const std::string_view word = lines_.words()[0];
     if (word == "v") {
       vertex();
+    } else if (word == "vt") {
+      place();
     } else if (word == "f" || word == "fo") {
       face();
     } else if (word == "g" || word == "o") {
@@ -106,10 +110,22 @@ class ObjReader {
     const auto position = read_position(lines_, 1, out_);
     out_.mesh.builder.vertex(position.value_or(glm::dvec3(0.0)));
     out_.mesh.vertex_line.push_back(lines_.line());
+    if (lines_.words().size() >= 7) {
+      put_color(out_.mesh.vertex_color, static_cast<std::size_t>(count() - 1),
+                {*to_number(lines_.words()[4]), *to_number(lines_.words()[5]), *to_number(lines_.words()[6])});
+    }
+  }
+
+  // Texture coordinates. What is no number is nowhere, as what is not there.
+  void place() {
+    const auto number = [&](std::size_t i) { return i < lines_.words().size() ? to_number(lines_.words()[i]) : std::optional(0.0); };
+    const auto u = number(1), v = number(2);
+    places_.push_back(u && v ? glm::vec2(static_cast<float>(*u), static_cast<float>(*v)) : no_place);
   }
 
   void face() {
     corners_.clear();
+    corner_places_.clear();
     if (lines_.words().size() == 1) { return fail(1, "expected the corners of a face, found the end of the line"); }
     for (std::size_t i = 1; i < lines_.words().size(); ++i) {
       const auto number = corner(lines_.words()[i]);
@@ -125,13 +141,32 @@ class ObjReader {
       }
       if (index > count()) { forward_.push_back({lines_.words()[i], static_cast<std::uint32_t>(index)}); }
       corners_.push_back(static_cast<std::uint32_t>(index - 1));
+      corner_places_.push_back(place_of(lines_.words()[i]));
     }
     out_.mesh.builder.face(corners_, 0);
+    put_places();
     out_.mesh.face_line.push_back(lines_.line());
     if (!group_number_) { group_number_ = number_of(group_name(), out_.mesh.groups, group_numbers_); }
     if (!material_) { material_ = number_of("default", out_.mesh.materials, material_numbers_); }
     out_.mesh.face_group.push_back(*group_number_);
     out_.mesh.face_material.push_back(*material_);
+  }
+
+  // Of a corner such as 3/1, by the texture coordinates that stand before it.
+  [[nodiscard]] glm::vec2 place_of(std::string_view word) const {
+    const std::size_t slash = word.find('/');
+    if (slash == word.npos || places_.empty()) { return no_place; }
+    word.remove_prefix(slash + 1);
+    const std::int64_t number = to_integer(word.substr(0, word.find('/'))).value_or(0), all = static_cast<std::int64_t>(places_.size());
+    const std::int64_t index = number > 0 ? number : all + 1 + number;
+    return number != 0 && index >= 1 && index <= all ? places_[static_cast<std::size_t>(index - 1)] : no_place;
+  }
+  void put_places() {
+    corner_count_ += corners_.size();
+    if (places_.empty()) { return; }
+    std::vector<glm::vec2>& list = out_.mesh.corner_place;
+    list.resize(corner_count_ - corners_.size(), no_place);
+    list.insert(list.end(), corner_places_.begin(), corner_places_.end());
   }
 
   // The first number of a corner; texture and normal must be numbers, too, if they are there.
@@ -178,6 +213,8 @@ class ObjReader {
   std::optional<std::uint32_t> group_number_, material_;
   Numbers group_numbers_, material_numbers_;
   std::vector<std::uint32_t> corners_;
+  std::vector<glm::vec2> places_, corner_places_;  // of all vt lines; of the corners of a face
+  std::size_t corner_count_ = 0;                   // of all faces
   std::vector<ForwardReference> forward_;
   std::map<std::string_view, std::size_t> unread_;
   std::size_t foreign_ = 0;

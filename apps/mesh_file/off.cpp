@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // OFF (Geomview): an optional keyword, the counts of vertices, faces and edges, one line per vertex, one line per face; the corners of a
-// face may go on in the next lines.
-// Normals, colours and texture coordinates after a position and colours after a face are passed over.
+// face may go on in the next lines. Behind a position may stand a normal, then a colour, then texture coordinates, as the keyword says;
+// behind the corners of a face a colour.
 #include "apps/mesh_file/reading.hpp"
 
 #include <brep/builder_input.hpp>
@@ -19,11 +19,13 @@ class OffReader {
       if (!next("vertex", i, vertices_)) { return; }
       out_.mesh.builder.vertex(read_position(lines_, 0, out_).value_or(glm::dvec3(0.0)));
       out_.mesh.vertex_line.push_back(lines_.line());
+      if (colored_) { color(out_.mesh.vertex_color, static_cast<std::size_t>(i), normals_ ? 6 : 3); }
     }
     for (std::int64_t i = 0; i < faces_ && !out_.full(); ++i) {
       if (!next("face", i, faces_)) { return; }
       static_cast<void>(face());  // reading goes on behind a bad one
     }
+    scale_colors(out_.mesh);
     if (lines_.next()) {
       out_.mesh.notes.push_back("what follows the last face from line " + std::to_string(lines_.line()) +
                                 " on was passed over; does the header count too few?");
@@ -47,7 +49,10 @@ class OffReader {
     std::string_view keyword = lines_.words()[0];
     if (!to_number(keyword)) {
       for (const std::string_view prefix : {"ST", "C", "N"}) {
-        if (keyword.starts_with(prefix)) { keyword.remove_prefix(prefix.size()); }
+        if (!keyword.starts_with(prefix)) { continue; }
+        keyword.remove_prefix(prefix.size());
+        colored_ = colored_ || prefix == "C";
+        normals_ = normals_ || prefix == "N";
       }
       if (keyword != "OFF") {
         const bool other = keyword == "4OFF" || keyword == "nOFF" || keyword == "4nOFF";
@@ -97,12 +102,25 @@ class OffReader {
     }
     out_.mesh.builder.face(corners_, 0);
     out_.mesh.face_line.push_back(lines_.line());
+    color(out_.mesh.face_color, out_.mesh.face_line.size() - 1, corners_.size() + 1);
     return true;
+  }
+  // The three words from `first` on, if they are numbers. A single number behind a face would be the place of its colour in a list that the
+  // file does not have.
+  void color(std::vector<glm::vec3>& list, std::size_t of, std::size_t first) {
+    glm::dvec3 value(0.0);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto number = first + k < lines_.words().size() ? to_number(lines_.words()[first + k]) : std::nullopt;
+      if (!number) { return; }
+      value[static_cast<int>(k)] = *number;
+    }
+    put_color(list, of, value);
   }
 
   Lines lines_;
   Output& out_;
   std::int64_t vertices_ = 0, faces_ = 0;
+  bool colored_ = false, normals_ = false;  // are the vertices?
   std::vector<std::uint32_t> corners_;
 };
 

@@ -1,46 +1,25 @@
 // SPDX-License-Identifier: MIT
-// PLY (Turk 1994): a header that declares elements and their properties, then the values, as text or binary in either byte order.
-// Of the element vertex x, y and z are read, of the elements face and tristrips the list vertex_indices (or vertex_index); the rest is
-// stepped over. A list of triangle strips has -1 between them.
+// PLY (Turk 1994): a header that declares elements and their properties, then the values, as text or binary in either byte order. Of the
+// element vertex x, y and z are read, of the elements face and tristrips the list vertex_indices (or vertex_index), of both red, green and
+// blue; the rest is stepped over. A list of triangle strips has -1 between them.
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <limits>
 #include <span>
 
 #include <brep/builder_input.hpp>
 
-#include "apps/bytes.hpp"
+#include "apps/mesh_file/ply_types.hpp"
 #include "apps/mesh_file/reading.hpp"
 
 namespace apps::mesh_file {
 namespace {
 
-enum class Type : std::uint8_t { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
-
-std::optional<Type> type_of(std::string_view name) {
-  struct Name {
-    std::string_view old, sized;
-  };
-  constexpr std::array<Name, 8> names{{{"char", "int8"},
-                                       {"uchar", "uint8"},
-                                       {"short", "int16"},
-                                       {"ushort", "uint16"},
-                                       {"int", "int32"},
-                                       {"uint", "uint32"},
-                                       {"float", "float32"},
-                                       {"double", "float64"}}};
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    if (name == names[i].old || name == names[i].sized) { return static_cast<Type>(i); }
-  }
-  return std::nullopt;
-}
-constexpr std::size_t size_of(Type type) { return std::array<std::size_t, 8>{1, 1, 2, 2, 4, 4, 4, 8}[static_cast<std::size_t>(type)]; }
-constexpr bool is_float(Type type) { return type >= Type::float32; }
+using ply::is_float, ply::size_of, ply::Type, ply::type_of;
 
 struct Property {
-  enum class Role : std::uint8_t { other, x, y, z, corners };
+  enum class Role : std::uint8_t { other, x, y, z, red, green, blue, corners };
   Type type;
   bool is_list;
   Type count;  // of a list: the type of its length
@@ -68,6 +47,7 @@ class PlyReader {
     if (out_.good() && out_.mesh.builder.face_count() == 0) {  // strips in which a corner stands twice in every triangle
       out_.error(text_ ? lines_.place(0) : Place{0, static_cast<std::uint32_t>(at_)}, no_faces_in(vertices_));
     }
+    scale_colors(out_.mesh);
     const bool more = text_ ? lines_.next() : at_ < bytes_.size();
     if (more) { out_.mesh.notes.push_back("what follows the last element was passed over; does the header count too few?"); }
   }
@@ -135,11 +115,14 @@ class PlyReader {
     if (element.name == "vertex" && name.size() == 1 && name[0] >= 'x' && name[0] <= 'z') {
       if (is_list) { return fail(1, "the coordinate " + std::string(name) + " cannot be a list"); }
       property.role = std::array{Role::x, Role::y, Role::z}[static_cast<std::size_t>(name[0] - 'x')];
+    } else if (!is_list && (element.name == "vertex" || element.name == "face")) {
+      property.role = color_role(name);
     } else if ((element.name == "face" || element.name == "tristrips") && (name == "vertex_indices" || name == "vertex_index")) {
       if (!is_list || is_float(*type)) { return fail(1, "the corners of faces must be a list of integers"); }
       property.role = Role::corners;
     }
     for (const Property& p : element.properties) {
+      if (p.role == property.role && property.role >= Role::red && property.role <= Role::blue) { property.role = Role::other; }
       if (p.role != Role::other && p.role == property.role) { return fail(type_at + 1, shown(name) + " is declared twice"); }
     }
     element.properties.push_back(property);
@@ -183,8 +166,10 @@ class PlyReader {
       }
       out_.mesh.builder.vertex(position_);
       if (text_) { out_.mesh.vertex_line.push_back(place.line); }
+      if (colors_ == 3) { put_color(out_.mesh.vertex_color, out_.mesh.builder.vertex_count() - 1, color_); }
     } else if (element.name == "face") {
       face(corners_, place);
+      if (colors_ == 3) { put_color(out_.mesh.face_color, out_.mesh.builder.face_count() - 1, color_); }
     } else if (element.name == "tristrips") {
       for (std::size_t first = 0; first < corners_.size();) {
         const auto end = std::find(corners_.begin() + static_cast<std::ptrdiff_t>(first), corners_.end(), between_strips);
@@ -193,6 +178,7 @@ class PlyReader {
       }
     }
     corners_.clear();
+    colors_ = 0;
   }
   void face(std::span<const std::uint32_t> corners, Place place) {
     out_.mesh.builder.face(corners, 0);
@@ -206,9 +192,20 @@ class PlyReader {
       face(i % 2 == 0 ? std::array{a, b, c} : std::array{b, a, c}, place);
     }
   }
-  void set_coordinate(Property::Role role, double value) {
-    if (role >= Property::Role::x && role <= Property::Role::z) {
-      position_[static_cast<int>(role) - static_cast<int>(Property::Role::x)] = value;
+  static Property::Role color_role(std::string_view name) {
+    if (name.starts_with("diffuse_")) { name.remove_prefix(8); }
+    using Role = Property::Role;
+    return name == "red" ? Role::red : name == "green" ? Role::green : name == "blue" ? Role::blue : Role::other;
+  }
+  // Integers say how much of the largest one of their type it is.
+  void set_number(const Property& property, double value) {
+    using Role = Property::Role;
+    if (property.role >= Role::x && property.role <= Role::z) {
+      position_[static_cast<int>(property.role) - static_cast<int>(Role::x)] = value;
+    } else if (property.role >= Role::red && property.role <= Role::blue) {
+      const double most = property.type == Type::uint8 ? 255.0 : property.type == Type::uint16 ? 65535.0 : 1.0;
+      color_[static_cast<int>(property.role) - static_cast<int>(Role::red)] = value / most;
+      ++colors_;
     }
   }
   static std::string which(const Element& element, std::uint64_t i) {
@@ -236,8 +233,9 @@ class PlyReader {
           corners_.push_back(*index);
         } else if (property.role != Property::Role::other) {
           const auto value = to_number(word(at));
+          if (!value && property.role >= Property::Role::red) { continue; }
           if (!value) { return fail(at, "expected a coordinate, a finite number, " + found(at)); }
-          set_coordinate(property.role, *value);
+          set_number(property, *value);
         }
       }
     }
@@ -267,7 +265,7 @@ class PlyReader {
       if (property.role == Property::Role::other) {
         at_ += values * size_of(property.type);
       } else if (property.role != Property::Role::corners) {
-        set_coordinate(property.role, value(property.type));
+        set_number(property, value(property.type));
       } else {
         for (; values > 0; --values) {
           const double index = value(property.type);
@@ -288,24 +286,11 @@ class PlyReader {
     return true;
   }
 
-  // The next value; the caller has looked whether it is there. Every type fits into a double.
+  // The next value; the caller has looked whether it is there.
   double value(Type type) {
-    const std::uint64_t bits = bits_at(bytes_, at_, size_of(type), big_);
+    const double number = ply::number_at(bytes_, at_, type, big_);
     at_ += size_of(type);
-    switch (type) {
-      case Type::int8:
-        return static_cast<std::int8_t>(bits);
-      case Type::int16:
-        return static_cast<std::int16_t>(bits);
-      case Type::int32:
-        return static_cast<std::int32_t>(bits);
-      case Type::float32:
-        return static_cast<double>(std::bit_cast<float>(static_cast<std::uint32_t>(bits)));
-      case Type::float64:
-        return std::bit_cast<double>(bits);
-      default:
-        return static_cast<double>(bits);
-    }
+    return number;
   }
 
   std::string_view bytes_;
@@ -315,7 +300,8 @@ class PlyReader {
   std::vector<Element> elements_;
   std::uint64_t vertices_ = 0;
   std::size_t at_ = 0;  // in a binary file
-  glm::dvec3 position_{0.0};
+  glm::dvec3 position_{0.0}, color_{0.0};
+  int colors_ = 0;  // numbers of it that the present element has
   static constexpr std::uint32_t between_strips = std::numeric_limits<std::uint32_t>::max();
   std::vector<std::uint32_t> corners_;
 };

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <glm/common.hpp>
+
 #include "apps/text.hpp"
 
 namespace apps::mesh_file {
@@ -133,6 +135,19 @@ std::optional<glm::dvec3> read_position(const Lines& lines, std::size_t first, O
     position[static_cast<int>(i)] = *value;
   }
   return position;
+}
+
+void put_color(std::vector<glm::vec3>& list, std::size_t of, const glm::dvec3& color) {
+  if (list.size() <= of) { list.resize(of + 1, no_color); }
+  list[of] = glm::vec3(glm::clamp(color, 0.0, 255.0));
+}
+
+void scale_colors(Mesh& mesh) {
+  const auto above_one = [](const glm::vec3& c) { return c.x > 1.0F || c.y > 1.0F || c.z > 1.0F; };
+  for (std::vector<glm::vec3>* const list : {&mesh.vertex_color, &mesh.face_color}) {
+    if (std::none_of(list->begin(), list->end(), above_one)) { continue; }
+    for (glm::vec3& c : *list) { c /= 255.0F; }
+  }
 }
 
 std::string found(const Lines& lines, std::size_t word) {

@@ -5,11 +5,15 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 
 #include "apps/mesh_file.hpp"
 
@@ -72,6 +76,16 @@ class Lines {
 
 // The word in quotes for a message: at most 40 characters, what is not printable as '?'.
 [[nodiscard]] std::string shown(std::string_view word);
+
+// Texture coordinates and a colour that are not there.
+inline constexpr float no_number = std::numeric_limits<float>::quiet_NaN();
+inline constexpr glm::vec2 no_place{no_number, no_number};
+inline constexpr glm::vec3 no_color{no_number, no_number, no_number};
+
+// Sets the colour of a vertex or a face.
+void put_color(std::vector<glm::vec3>& list, std::size_t of, const glm::dvec3& color);
+// Some programs write colours from 0 to 1, others from 0 to 255: with any number above 1 in a file all are taken as the latter.
+void scale_colors(Mesh& mesh);
 
 // The first three words from `first` on are a position; errors say what is wrong. Nothing when there is an error.
 [[nodiscard]] std::optional<glm::dvec3> read_position(const Lines& lines, std::size_t first, Output& out);

@@ -59,11 +59,11 @@ ModelMaterial Looks::made(const State& state, const Numbers& numbers, std::size_
                                                  : state.material->name;
   if (all > 1) { material.name += numbers.size() > 1 ? ".mean" : "." + std::to_string(numbers[0]); }
   const Node* const texture = state.texture;
-  const auto picture =
-      pictures_.of(texture, [&] { return texture != nullptr ? mean_of_texture(*texture, side_file_, notes_) : std::nullopt; });
+  const auto& picture = pictures_.of(texture, [&] { return texture != nullptr ? picture_of(*texture, side_file_, notes_) : nullptr; });
   // In VRML 97 a picture with colours stands in the place of the diffuse colour, one in grey is multiplied with it.
-  const bool replaces = picture && texture->version == Version::v97 && !(picture->x == picture->y && picture->y == picture->z);
-  material.reflectance = (replaces ? glm::dvec3(1.0) : color("diffuseColor", glm::dvec3(0.8))) * picture.value_or(glm::dvec3(1.0));
+  const glm::dvec3 mean = picture ? picture->mean() : glm::dvec3(1.0);
+  const bool replaces = picture && texture->version == Version::v97 && !(mean.x == mean.y && mean.y == mean.z);
+  material.reflectance = (replaces ? glm::dvec3(1.0) : color("diffuseColor", glm::dvec3(0.8))) * mean;
   material.emission = std::numbers::pi * color("emissiveColor", glm::dvec3(0.0));
   if (values(state, "transparency", 1) > 0 && state.material->number("transparency", 0.0) > 0.0) {
     notes_.add("materials that let light through are taken as opaque", at_line_of(*state.material));
@@ -103,23 +103,23 @@ Looks::Numbers Looks::numbers(const Node& face_set, const State& state, const Fa
 
 namespace {
 
-// Of width, height, components and pixels. Nothing when a number is not what it must be.
-std::optional<radiosity::Color> mean_of_image(const std::vector<double>& numbers) {
+// Of width, height, components and pixels. Null when a number is not what it must be.
+std::shared_ptr<const intake::Picture> picture_of_image(const std::vector<double>& numbers) {
   const auto whole = [](double x) { return x >= 1.0 && x == std::floor(x); };
-  if (numbers.size() < 4 || !std::all_of(numbers.begin(), numbers.begin() + 3, whole) || numbers[2] > 4.0) { return std::nullopt; }
+  if (numbers.size() < 4 || !std::all_of(numbers.begin(), numbers.begin() + 3, whole) || numbers[2] > 4.0) { return nullptr; }
   const double components = numbers[2];
   const auto bytes = static_cast<std::size_t>(components);
   const double most = std::exp2(8.0 * components) - 1.0;
   std::vector<std::uint8_t> rgba;
   for (std::size_t i = 3; i < numbers.size(); ++i) {
-    if (!(numbers[i] >= 0.0 && numbers[i] <= most) || numbers[i] != std::floor(numbers[i])) { return std::nullopt; }
+    if (!(numbers[i] >= 0.0 && numbers[i] <= most) || numbers[i] != std::floor(numbers[i])) { return nullptr; }
     const auto pixel = static_cast<std::uint32_t>(numbers[i]);
     const auto component = [&](std::size_t k) { return static_cast<std::uint8_t>(pixel >> (8 * (bytes - 1 - k)) & 0xff); };
     const bool grey = bytes < 3;
     const std::uint8_t opaque = bytes % 2 == 0 ? component(bytes - 1) : std::uint8_t{255};
     rgba.insert(rgba.end(), {component(0), component(grey ? 0 : 1), component(grey ? 0 : 2), opaque});
   }
-  return intake::mean_of_pixels(rgba);
+  return intake::Picture::of_pixels(static_cast<std::uint32_t>(rgba.size() / 4), rgba);  // as one row: its mean alone counts
 }
 
 }  // namespace
@@ -127,21 +127,22 @@ std::optional<radiosity::Color> mean_of_image(const std::vector<double>& numbers
 // The pictures of texture nodes: a file beside the scene, or pixels in the field `image`: width, height, number of components (1 grey, 2
 // grey and opacity, 3 red, green and blue, 4 these and opacity), then a number for each pixel, its first component in the highest byte. A
 // surface has the mean of its picture times its diffuse colour.
-std::optional<radiosity::Color> mean_of_texture(const Node& texture, const SideFile& side_file, Notes& notes) {
+std::shared_ptr<const intake::Picture> picture_of(const Node& texture, const SideFile& side_file, Notes& notes) {
   const Field* const image = texture.find("image");
   const std::string name(texture.word(texture.version == Version::v97 ? "url" : "filename", ""));
   const bool inside = image != nullptr && image->numbers.size() >= 2 && image->numbers[0] * image->numbers[1] != 0.0;
-  if (!inside && name.empty()) { return std::nullopt; }  // the end of an earlier picture
+  if (!inside && name.empty()) { return nullptr; }  // the end of an earlier picture
   std::string fault;
-  std::optional<radiosity::Color> mean;
+  std::shared_ptr<const intake::Picture> picture;
   if (inside) {
-    mean = mean_of_image(image->numbers);
+    picture = picture_of_image(image->numbers);
   } else if (name.find("://") == name.npos) {
-    if (const auto bytes = side_file(name, fault)) { mean = intake::mean_color(*bytes); }
+    if (const auto bytes = side_file(name, fault)) { picture = intake::Picture::read(*bytes); }
   }
-  notes.add(mean ? "pictures on surfaces count with their mean colour" : "textures are not read: the diffuse colour stands for the picture",
-            at_line_of(texture));
-  return mean;
+  notes.add(
+      picture ? "pictures on surfaces count with their mean colour" : "textures are not read: the diffuse colour stands for the picture",
+      at_line_of(texture));
+  return picture;
 }
 
 }  // namespace apps::vrml

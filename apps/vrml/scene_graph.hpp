@@ -188,9 +188,8 @@ struct Faces {
 
 // --- looks (looks.cpp)
 
-// The mean colour that a texture node gives to what follows it; nothing when it has no picture, or one that cannot be read, which is
-// noted.
-[[nodiscard]] std::optional<radiosity::Color> mean_of_texture(const Node& texture, const SideFile& side_file, Notes& notes);
+// The picture that a texture node gives to what follows it; null when it has none, or one that cannot be read, which is noted.
+[[nodiscard]] std::shared_ptr<const intake::Picture> picture_of(const Node& texture, const SideFile& side_file, Notes& notes);
 
 // Which material a part, a face or a corner has by the binding of its state, and what of it the model needs: the diffuse colour is the
 // reflectance, the emissive colour a radiance L, so that the exitance is pi L.
@@ -219,7 +218,7 @@ class Looks {
   Model& model_;
   const SideFile& side_file_;
   Notes& notes_;
-  intake::PictureMeans<const Node*> pictures_;
+  intake::Pictures<const Node*> pictures_;
   std::map<std::tuple<const Node*, const Node*, const Node*, Numbers, bool>, std::uint32_t> known_;
 };
 

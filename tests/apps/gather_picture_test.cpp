@@ -18,6 +18,8 @@
 #include <radiosity/camera/gather_picture.hpp>
 #include <radiosity/camera/mesh_picture.hpp>
 
+#include "apps/scene_file.hpp"
+
 namespace {
 
 using std::numbers::pi;

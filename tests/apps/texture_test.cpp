@@ -61,13 +61,13 @@ TEST_CASE("textures: the mean of a PNG is that of its pixels in linear light, wh
   for (const unsigned seed : {1U, 2U, 3U}) {
     INFO("seed " << seed);
     const Painted picture = painted(seed, 5 + seed, 9);
-    const auto mean = apps::intake::mean_color(picture.file);
-    REQUIRE(mean);
-    CHECK(near(*mean, picture.mean));
-    CHECK_FALSE(apps::intake::mean_color(picture.file.substr(0, picture.file.size() / 3)));
+    const auto read = apps::intake::Picture::read(picture.file);
+    REQUIRE(read);
+    CHECK(near(read->mean(), picture.mean));
+    CHECK_FALSE(apps::intake::Picture::read(picture.file.substr(0, picture.file.size() / 3)));
   }
-  CHECK_FALSE(apps::intake::mean_color(""));
-  CHECK_FALSE(apps::intake::mean_color("not a picture"));
+  CHECK_FALSE(apps::intake::Picture::read(""));
+  CHECK_FALSE(apps::intake::Picture::read("not a picture"));
 }
 
 TEST_CASE("textures: of OBJ and glTF they count times their factors, wherever they lie, unreadable ones are told") {

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: MIT
+#include "apps/intake/gltf_looks.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <utility>
+
+#include "apps/intake/texture.hpp"
+#include "apps/mesh_file/reading.hpp"
+
+namespace apps::intake {
+namespace {
+
+// The texture of the colour of a material, or that of its emission; empty when it has neither.
+const JsonValue& color_texture(const JsonValue& material) {
+  const JsonValue& glossy = material["extensions"]["KHR_materials_pbrSpecularGlossiness"];
+  const JsonValue& base = (glossy ? glossy : material["pbrMetallicRoughness"])[glossy ? "diffuseTexture" : "baseColorTexture"];
+  return base ? base : material["emissiveTexture"];
+}
+
+}  // namespace
+
+std::vector<ModelMaterial> read_gltf_materials(const JsonValue& root, GltfData& data, PolygonColors& colors, Notes& notes) {
+  std::vector<ModelMaterial> materials;
+  Pictures<std::size_t> pictures;
+  // Null when it cannot be read, which is noted.
+  const auto picture_of = [&](const JsonValue& texture, const std::string& factor, const std::string& place) {
+    const auto image = root["textures"][texture["index"].index().value_or(~std::size_t{0})]["source"].index();
+    std::shared_ptr<const Picture> picture;
+    if (image) {
+      picture = pictures.of(*image, [&] {
+        const auto bytes = data.picture(*image);
+        return bytes ? Picture::read(*bytes) : nullptr;
+      });
+    }
+    if (!picture) { notes.add("textures are not read: the " + factor + " factor stands for the picture", place); }
+    return picture;
+  };
+  // Do both lie at the same texture coordinates?
+  const auto lie_alike = [](const JsonValue& a, const JsonValue& b) {
+    const auto plain = [](const JsonValue& texture) { return texture["texCoord"].index().value_or(0) == 0 && !texture["extensions"]; };
+    return &a == &b || (plain(a) && plain(b));
+  };
+  for (const JsonValue& given : root["materials"].items()) {
+    ModelMaterial material;
+    material.name = given["name"].string();
+    if (material.name.empty()) { material.name = "material" + std::to_string(materials.size()); }
+    const JsonValue &extensions = given["extensions"], &glossy = extensions["KHR_materials_pbrSpecularGlossiness"];
+    const JsonValue& base = glossy ? glossy : given["pbrMetallicRoughness"];
+    const auto color = array_of<3>(base[glossy ? "diffuseFactor" : "baseColorFactor"]).value_or(std::array{1.0, 1.0, 1.0});
+    const JsonValue& picture = base[glossy ? "diffuseTexture" : "baseColorTexture"];
+    const auto number = static_cast<std::uint32_t>(materials.size());
+    const std::string place = "in " + mesh_file::shown(material.name);
+    const auto paint = picture ? picture_of(picture, "base colour", place) : nullptr;
+    colors.picture(number, PolygonColors::Of::reflectance, paint, place);
+    // A factor of 1 1 1 under a picture that is not known says nothing about the picture.
+    if (!picture || paint || color != std::array{1.0, 1.0, 1.0}) {
+      if (base || given["emissiveFactor"]) { material.reflectance = radiosity::Color(color[0], color[1], color[2]); }
+    }
+    const auto emissive = array_of<3>(given["emissiveFactor"]).value_or(std::array{0.0, 0.0, 0.0});
+    const double strength = extensions["KHR_materials_emissive_strength"]["emissiveStrength"].number(1.0);
+    for (int i = 0; i < 3; ++i) {
+      material.emission[i] = std::max(0.0, std::numbers::pi * strength * emissive[static_cast<std::size_t>(i)]);
+      if (!std::isfinite(material.emission[i])) { material.emission[i] = 0.0; }
+    }
+    if (const JsonValue& texture = given["emissiveTexture"]; texture && !radiosity::is_black(material.emission)) {
+      const auto glow = picture_of(texture, "emissive", place);
+      if (lie_alike(texture, color_texture(given))) {
+        colors.picture(number, PolygonColors::Of::emission, glow, place);
+      } else if (glow) {
+        notes.add("pictures on surfaces count with their mean colour", place);
+        material.emission *= glow->mean();
+      }
+    }
+    if (extensions["KHR_materials_unlit"]) {
+      notes.add("unlit materials are taken as paint of their colour", "in " + mesh_file::shown(material.name));
+    }
+    if (extensions["KHR_materials_transmission"] || given["alphaMode"].string() == "BLEND") {
+      notes.add("materials that let light through are taken as opaque", "in " + mesh_file::shown(material.name));
+    }
+    material.two_sided = given["doubleSided"].boolean();
+    materials.push_back(std::move(material));
+  }
+  return materials;
+}
+
+std::vector<glm::dvec2> gltf_texture_places(const JsonValue& root, GltfData& data, const JsonValue& primitive,
+                                            std::optional<std::size_t> material, std::size_t vertices) {
+  if (!material) { return {}; }
+  const JsonValue& texture = color_texture(root["materials"][*material]);
+  if (!texture) { return {}; }
+  const JsonValue& transform = texture["extensions"]["KHR_texture_transform"];
+  const JsonValue& set = transform["texCoord"] ? transform["texCoord"] : texture["texCoord"];
+  std::string fault;
+  const auto numbers = data.numbers(primitive["attributes"]["TEXCOORD_" + std::to_string(set.index().value_or(0))], 2, fault);
+  if (!numbers || numbers->size() < 2 * vertices) { return {}; }
+  const auto offset = array_of<2>(transform["offset"]).value_or(std::array{0.0, 0.0});
+  const auto scale = array_of<2>(transform["scale"]).value_or(std::array{1.0, 1.0});
+  const double angle = transform["rotation"].number(0.0), c = std::cos(angle), s = std::sin(angle);
+  std::vector<glm::dvec2> places;
+  for (std::size_t v = 0; v < vertices; ++v) {
+    const double x = scale[0] * (*numbers)[2 * v], y = scale[1] * (*numbers)[2 * v + 1];
+    places.emplace_back(offset[0] + c * x + s * y, offset[1] - s * x + c * y);
+  }
+  return places;
+}
+
+std::vector<double> gltf_vertex_colors(const JsonValue& root, GltfData& data, const JsonValue& primitive, std::size_t vertices,
+                                       Notes& notes, const std::string& place) {
+  const JsonValue& index = primitive["attributes"]["COLOR_0"];
+  if (!index) { return {}; }
+  const std::string& type = root["accessors"][index.index().value_or(~std::size_t{0})]["type"].string();
+  const std::size_t components = type == "VEC4" ? 4 : 3;
+  std::string fault;
+  const auto numbers = data.numbers(index, components, fault);
+  if (!numbers || numbers->size() < components * vertices) {
+    notes.add("colours of vertices cannot be read: left out", place);
+    return {};
+  }
+  std::vector<double> colors;
+  for (std::size_t v = 0; v < vertices; ++v) {
+    for (std::size_t k = 0; k < 3; ++k) { colors.push_back((*numbers)[components * v + k]); }
+  }
+  return colors;
+}
+
+}  // namespace apps::intake

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// What the surfaces of a glTF file look like: materials, their pictures, colours of vertices.
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <glm/vec2.hpp>
+
+#include "apps/intake/gltf_data.hpp"
+#include "apps/intake/json_reader.hpp"
+#include "apps/intake/model.hpp"
+#include "apps/intake/polygon_colors.hpp"
+
+namespace apps::intake {
+
+// In the order of the file. Their pictures go to `colors`.
+[[nodiscard]] std::vector<ModelMaterial> read_gltf_materials(const JsonValue& root, GltfData& data, PolygonColors& colors, Notes& notes);
+
+// Where the vertices of a primitive lie in the picture of its material; empty when it has none, or nothing is said.
+[[nodiscard]] std::vector<glm::dvec2> gltf_texture_places(const JsonValue& root, GltfData& data, const JsonValue& primitive,
+                                                          std::optional<std::size_t> material, std::size_t vertices);
+
+// Three numbers for each vertex, in linear light; empty when it has none, or they cannot be read.
+[[nodiscard]] std::vector<double> gltf_vertex_colors(const JsonValue& root, GltfData& data, const JsonValue& primitive,
+                                                     std::size_t vertices, Notes& notes, const std::string& place);
+
+}  // namespace apps::intake
