@@ -86,7 +86,9 @@ class Text {
       if (!audit_.estimate_doubt.empty()) { say("", "{estimate_doubt}"); }
     }
     if (audit_.target_missed) {
-      row("", "TARGET MISSED: the error is not known to be within " + percent(report_.options.error.value_or(audit_.target)) +
+      const double target = report_.options.error.value_or(audit_.target);
+      const bool above = surfaces && surfaces->low > target && (!audit_.picture_error || audit_.picture_error->error.low > target);
+      row("", (above ? "TARGET MISSED: the error is more than " : "TARGET MISSED: the error is not known to be within ") + percent(target) +
                   (audit_.rounds_ended_by.empty() ? "" : "; ended by " + audit_.rounds_ended_by));
     }
     say("path-traced points", "{error.points}, {error.rays} rays");

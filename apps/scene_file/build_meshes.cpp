@@ -47,6 +47,9 @@ std::optional<SceneFile> mesh_from_file(const ObjectSyntax& object, const SideFi
   }
   if (!read.model) { return std::nullopt; }
   read.model->name_file(file.text);
+  if (object.material) {  // in the place of what the file says or leaves open
+    for (ModelMaterial& material : read.model->materials) { material.reflectance = radiosity::Color(0.0); }
+  }
   std::vector<std::string> faults;
   auto part = to_part(std::move(*read.model), object.two_sided.has_value(), eyes, faults);
   for (const std::string& sentence : faults) { errors.add(file.place, file.text + ": " + sentence); }

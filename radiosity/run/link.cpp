@@ -56,7 +56,8 @@ namespace detail {
   const MemoryBudget::Counts needed{scene.hierarchy.size(), run.solution.links.size(), 0, 0, rays};
   if (!scene.budget.allows(needed)) {
     return Failure{Failure::Kind::out_of_memory,
-                   {too_much_memory(scene.budget.peak(needed), scene.budget.allowed, "a larger epsilon needs less")}};
+                   {too_much_memory(scene.budget.peak(needed), scene.budget.allowed,
+                                    run.options.error ? "a larger error needs less" : "a larger epsilon needs less")}};
   }
   const StoredRays stored = cast_rays(scene, LeafLocator{scene.hierarchy, scene.patches, scene.inputs.size()}, counts);
   if (scene.control.cancelled()) { return cancelled(); }
