@@ -17,7 +17,7 @@
 namespace apps::intake {
 namespace {
 
-constexpr float no_coordinate = std::numeric_limits<float>::quiet_NaN();
+constexpr float no_number = std::numeric_limits<float>::quiet_NaN();
 constexpr std::size_t many_colors = 256;  // of one material
 
 // The levels of two colours in sRGB, in so many steps from 0 to 1.
@@ -45,12 +45,12 @@ void PolygonColors::picture(std::uint32_t material, Of of, std::shared_ptr<const
 }
 
 void PolygonColors::tint(const Model& model, const radiosity::Color& color) {
-  tints_.resize(model.polygons(), radiosity::Color(1.0));
+  tints_.resize(model.polygons(), radiosity::Color(no_number));
   tints_.back() = color;
 }
 
 void PolygonColors::lies_at(const Model& model, std::span<const glm::dvec2> corners) {
-  places_.resize(model.corners.size(), glm::vec2(no_coordinate));
+  places_.resize(model.corners.size(), glm::vec2(no_number));
   std::copy(corners.begin(), corners.end(), places_.end() - static_cast<std::ptrdiff_t>(corners.size()));
 }
 
@@ -58,7 +58,7 @@ void PolygonColors::lies_at(const Model& model, std::span<const glm::dvec2> corn
 void PolygonColors::lay(Of of, Model& model, std::vector<Factors>& factors, Notes& notes) const {
   const auto which = static_cast<std::size_t>(of);
   struct Spread {
-    double area = 0.0, within = 0.0, between = 0.0;
+    double within = 0.0, between = 0.0;
   };
   std::vector<Spread> spread(pictures_.size());
   std::vector<std::pair<std::uint32_t, radiosity::Color>> parts;  // of polygons
@@ -82,7 +82,6 @@ void PolygonColors::lay(Of of, Model& model, std::vector<Factors>& factors, Note
     if (!(known > 0.0) || !std::isfinite(area)) { continue; }
     all.mean /= known;
     const glm::dvec3 distance = all.mean - picture.mean();
-    spread[material].area += area;
     spread[material].within += area * std::max(0.0, all.variance / known - glm::dot(all.mean, all.mean));
     spread[material].between += area * glm::dot(distance, distance);
     parts.emplace_back(p, all.mean);
@@ -108,7 +107,10 @@ void PolygonColors::lay(Of of, Model& model, std::vector<Factors>& factors, Note
 void PolygonColors::apply(Model& model, Notes& notes) {
   if (pictures_.empty() && tints_.empty()) { return; }
   std::vector<Factors> factors(model.polygons(), Factors{radiosity::Color(1.0), radiosity::Color(1.0)});
-  for (std::size_t p = 0; p < tints_.size(); ++p) { factors[p][0] = tints_[p]; }
+  const auto is_tinted = [&](std::size_t p) { return p < tints_.size() && !std::isnan(tints_[p].x); };
+  for (std::size_t p = 0; p < tints_.size(); ++p) {
+    if (is_tinted(p)) { factors[p][0] = tints_[p]; }
+  }
   lay(Of::reflectance, model, factors, notes);
   lay(Of::emission, model, factors, notes);
   std::map<std::pair<std::uint32_t, Levels>, std::uint32_t> known;  // materials of which there are so many colours
@@ -121,7 +123,9 @@ void PolygonColors::apply(Model& model, Notes& notes) {
   const Levels white = levels({radiosity::Color(1.0), radiosity::Color(1.0)}, 255.0);
   for (std::uint32_t p = 0; p < model.polygons(); ++p) {
     const std::uint32_t m = model.material[p];
-    if (levels(factors[p], 255.0) == white) { continue; }
+    // White among colours is white; a file that has nothing else, as programs write that know no colours, says nothing by it.
+    const bool says_white = is_tinted(p) && !model.materials[m].reflectance && colors[m] > 1;
+    if (levels(factors[p], 255.0) == white && !says_white) { continue; }
     const double steps = colors[m] > many_colors ? 16.0 : 255.0;
     const Levels color = levels(factors[p], steps);
     const auto [place, is_new] = known.emplace(std::pair{m, color}, static_cast<std::uint32_t>(model.materials.size()));

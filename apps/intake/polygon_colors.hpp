@@ -46,7 +46,7 @@ class PolygonColors {
   void lay(Of of, Model& model, std::vector<Factors>& factors, Notes& notes) const;
 
   std::vector<std::array<Laid, 2>> pictures_;  // by material
-  std::vector<radiosity::Color> tints_;        // by polygon, as far as there are any
+  std::vector<radiosity::Color> tints_;        // by polygon, as far as there are any; NaN: none
   std::vector<glm::vec2> places_;              // by corner, as far as there are any
 };
 

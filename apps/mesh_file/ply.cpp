@@ -115,11 +115,11 @@ class PlyReader {
     if (element.name == "vertex" && name.size() == 1 && name[0] >= 'x' && name[0] <= 'z') {
       if (is_list) { return fail(1, "the coordinate " + std::string(name) + " cannot be a list"); }
       property.role = std::array{Role::x, Role::y, Role::z}[static_cast<std::size_t>(name[0] - 'x')];
-    } else if (!is_list && (element.name == "vertex" || element.name == "face")) {
-      property.role = color_role(name);
     } else if ((element.name == "face" || element.name == "tristrips") && (name == "vertex_indices" || name == "vertex_index")) {
       if (!is_list || is_float(*type)) { return fail(1, "the corners of faces must be a list of integers"); }
       property.role = Role::corners;
+    } else if (!is_list && (element.name == "vertex" || element.name == "face")) {
+      property.role = color_role(name);
     }
     for (const Property& p : element.properties) {
       if (p.role == property.role && property.role >= Role::red && property.role <= Role::blue) { property.role = Role::other; }

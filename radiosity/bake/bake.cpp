@@ -75,21 +75,21 @@ HALFLIGHT_INLINE BakeOutcome bake(const PolygonView& mesh, std::span<const Mater
 }
 
 HALFLIGHT_INLINE BakeOutcome bake(const MeshView& mesh, const BakeOptions& options, const Control& control) {
-  const std::size_t triangles = mesh.indices.size() / 3;
-  if (mesh.stride < 3 || mesh.indices.size() % 3 != 0) {
-    return baking::detail::refused({mesh.stride < 3
-                                        ? "the stride of the positions is " + std::to_string(mesh.stride) + "; a vertex has three numbers"
-                                        : "there are " + std::to_string(mesh.indices.size()) + " indices; a triangle has three"});
-  }
-  if (const std::size_t rest = mesh.positions.size() % mesh.stride; rest == 1 || rest == 2) {
-    return baking::detail::refused({"there are " + std::to_string(mesh.positions.size()) + " numbers of positions, " +
-                                    std::to_string(mesh.stride) + " a vertex; the last vertex lacks some of its three"});
-  }
-  if (!mesh.material.empty() && mesh.material.size() != triangles) {
-    return baking::detail::refused(
-        {"there are " + std::to_string(triangles) + " triangles, and materials of " + std::to_string(mesh.material.size())});
-  }
-  return radiosity::detail::unless_out_of_memory([&] {
+  return radiosity::detail::unless_out_of_memory([&]() -> BakeOutcome {
+    const std::size_t triangles = mesh.indices.size() / 3;
+    if (mesh.stride < 3 || mesh.indices.size() % 3 != 0) {
+      return baking::detail::refused({mesh.stride < 3
+                                          ? "the stride of the positions is " + std::to_string(mesh.stride) + "; a vertex has three numbers"
+                                          : "there are " + std::to_string(mesh.indices.size()) + " indices; a triangle has three"});
+    }
+    if (const std::size_t rest = mesh.positions.size() % mesh.stride; rest == 1 || rest == 2) {
+      return baking::detail::refused({"there are " + std::to_string(mesh.positions.size()) + " numbers of positions, " +
+                                      std::to_string(mesh.stride) + " a vertex; the last vertex lacks some of its three"});
+    }
+    if (!mesh.material.empty() && mesh.material.size() != triangles) {
+      return baking::detail::refused(
+          {"there are " + std::to_string(triangles) + " triangles, and materials of " + std::to_string(mesh.material.size())});
+    }
     std::vector<glm::dvec3> positions;
     for (std::size_t i = 0; i + 2 < mesh.positions.size(); i += mesh.stride) {
       positions.emplace_back(mesh.positions[i], mesh.positions[i + 1], mesh.positions[i + 2]);

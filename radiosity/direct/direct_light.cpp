@@ -222,7 +222,7 @@ HALFLIGHT_INLINE DirectLight::DirectLight(const raycast::Scene& objects, const s
 }
 
 HALFLIGHT_INLINE glm::dvec3 DirectLight::lifted(std::uint32_t o, const glm::dvec3& x, const glm::dvec3& n) const {
-  constexpr std::uint32_t most_sheets = 64;
+  constexpr std::uint32_t most_sheets = 64;  // of more, each of which would be asked at each point, none is
   const double lift = bodies_[o].lift;
   if (!(lift > 0.0)) { return x; }
   glm::dvec3 above = x + lift * n;

@@ -220,11 +220,8 @@ HALFLIGHT_INLINE WallPairs wall_pairs(const std::vector<Surface>& surfaces, doub
   for (std::uint32_t o = 0; o < surfaces.size(); ++o) {
     if (!surfaces[o].object->flat() || covered[o]) { continue; }
     result.order.push_back(o);
-    raycast::Box box = surfaces[o].object->bounds();
-    const double margin = close_gap * box.diameter();
-    box.extend(box.lo - margin);
-    box.extend(box.hi + margin);
-    boxes.push_back(box);
+    const raycast::Box box = surfaces[o].object->bounds();
+    boxes.push_back(box.grown(close_gap * box.diameter()));
   }
   if (boxes.empty()) { return result; }
   const raycast::Bvh tree{boxes};

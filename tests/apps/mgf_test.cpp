@@ -103,6 +103,7 @@ TEST_CASE("mgf: spectra, temperatures and mixtures have the chromaticities that 
   CHECK(glm::length(reflects("cxy .4 0") - of(0.4, 0.004)) < 1e-12);
   // The second component of daylight (CIE 15) is negative at long wavelengths.
   CHECK(glm::length(reflects("cspec 400 700 40 30 20 10 0 -2 -1") - reflects("cspec 400 700 80 60 40 20 0 -4 -2")) < 1e-12);
+  CHECK(glm::length(reflects("cspec 400 700 40 30 20 10 0 -2 -1") - reflects("cspec 400 700 40 30 20 10 0 0 0")) > 0.01);
   for (const auto& [kelvin, x, y] : {std::array{2856.0, 0.4476, 0.4074}, {6500.0, 0.3135, 0.3237}}) {
     const glm::dvec3 xyz = apps::intake::mgf::xyz_of_temperature(kelvin);
     const double sum = xyz.x + xyz.y + xyz.z;
@@ -114,9 +115,9 @@ TEST_CASE("mgf: spectra, temperatures and mixtures have the chromaticities that 
   CHECK(glm::length(reflects("cmix 3 red 1 blue") - 0.25 * (3.0 * of(0.5, 0.35) + of(0.25, 0.25))) < 1e-12);
   CHECK(glm::length(reflects("cmix .2 red") - of(0.5, 0.35)) < 1e-12);
 
-  for (const char* const wrong :
-       {"cct 0", "cct", "cspec 700 400 1 1", "cspec 400 700 1", "cspec 400 700 1 -1", "cspec 400 700 0 0 0", "cspec 100 200 1 1", "cmix",
-        "cmix 1", "cmix 1 red 2", "cmix 1 green", "cmix 0 red", "cmix -1 red 2 blue"}) {
+  for (const char* const wrong : {"cct 0", "cct", "cspec 700 400 1 1", "cspec 400 700 1", "cspec 400 700 1 -1", "cspec 400 700 0 0 0",
+                                  "cspec 400 700 -1 -1 -1 2 -1 -1 -1", "cspec 100 200 1 1", "cmix", "cmix 1", "cmix 1 red 2",
+                                  "cmix 1 green", "cmix 0 red", "cmix -1 red 2 blue"}) {
     INFO(wrong);
     const apps::ModelResult result = models::result("a.mgf", square + "c red =\nc blue =\nc it =\n" + wrong + "\n");
     REQUIRE_FALSE(result.errors.empty());

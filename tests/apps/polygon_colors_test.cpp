@@ -165,6 +165,17 @@ TEST_CASE("colours of vertices and faces in OBJ, PLY and OFF are the reflectance
   CHECK_FALSE(plain.materials[plain.material[0]].reflectance);
 }
 
+TEST_CASE("a white face among coloured ones is white, in a file that has nothing but white the reflectance stays open") {
+  const std::string head = "OFF\n6 2 0\n" + vertices(2, "", {}), first = "3 0 1 2 255 255 255\n";
+  const apps::Model mixed = models::read("a.off", head + first + "3 3 4 5 200 200 200\n");
+  CHECK(near(reflectance(mixed, 0), radiosity::Color(1.0), 1e-12));
+  CHECK(near(reflectance(mixed, 1), linear({200, 200, 200}), 1e-6));
+  const apps::Model white = models::read("a.off", head + first + "3 3 4 5 255 255 255\n");
+  CHECK_FALSE(white.materials[white.material[0]].reflectance);
+  const apps::Model partly = models::read("a.off", head + "3 0 1 2 10 20 30\n3 3 4 5\n");
+  CHECK_FALSE(partly.materials[partly.material[1]].reflectance);
+}
+
 TEST_CASE("glTF: colours of vertices and places in a picture, under a transform of the texture, give each triangle its own") {
   Painter painter{std::mt19937(11)};
   std::vector<Rgb> cells;
