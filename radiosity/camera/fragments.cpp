@@ -43,7 +43,8 @@ HALFLIGHT_INLINE void add_fragments(const FinalGather& light, std::uint32_t x, s
       f->place.point = {middle, glm::normalize(f->normals)};
       continue;
     }
-    // The middle of points of a curved surface lies off it: the nearest of them is on it.
+    // The middle of points of a curved surface lies off it: its place is where the surface is seen in that direction, next to the nearest of
+    // the points, and that point itself where the surface bends away.
     double nearest = raycast::infinity;
     const FinalGather::Place of_piece = f->place;
     for (const auto& place : seen) {
@@ -54,6 +55,8 @@ HALFLIGHT_INLINE void add_fragments(const FinalGather& light, std::uint32_t x, s
         f->place.point = place->point;
       }
     }
+    const auto in_middle = light.beside(f->place, pixel_size.eye, middle - pixel_size.eye);
+    if (in_middle && one_piece(f->place, *in_middle, pixel_size)) { f->place = *in_middle; }
   }
 }
 

@@ -274,7 +274,7 @@ HALFLIGHT_INLINE bool GatherPainter::on_edge(std::uint32_t x, std::uint32_t y) c
 HALFLIGHT_INLINE std::vector<FinalGather::Place> GatherPainter::places_of(const Fragment& fragment, std::span<const glm::dvec2> at) const {
   std::vector<FinalGather::Place> places;
   for (const glm::dvec2& p : at) {
-    const auto place = light_.beside(fragment.place, eye_, view_.direction(fragment.x + p.x, fragment.y + p.y));
+    const auto place = light_.beside(fragment.place, eye_.position, view_.direction(fragment.x + p.x, fragment.y + p.y));
     if (place) { places.push_back(*place); }
   }
   return places;

@@ -120,13 +120,13 @@ HALFLIGHT_INLINE std::array<std::optional<FinalGather::Place>, 16> FinalGather::
   return result;
 }
 
-HALFLIGHT_INLINE std::optional<FinalGather::Place> FinalGather::beside(const Place& place, const Eye& eye,
+HALFLIGHT_INLINE std::optional<FinalGather::Place> FinalGather::beside(const Place& place, const glm::dvec3& eye,
                                                                        const glm::dvec3& direction) const {
   const double towards = glm::dot(direction, place.point.normal);
-  const double height = glm::dot(eye.position - place.point.position, place.point.normal);
+  const double height = glm::dot(eye - place.point.position, place.point.normal);
   if (!(towards < 0.0) || !(height > 0.0)) { return std::nullopt; }
   Place result = place;
-  result.point.position = eye.position - height / towards * direction;
+  result.point.position = eye - height / towards * direction;
   const raycast::PlacedObject& object = objects().object(place.object);
   if (!object.flat()) {
     result.point = object.project(place.surface - lookup_.surface(place.object, 0), result.point.position);

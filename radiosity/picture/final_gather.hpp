@@ -70,9 +70,9 @@ class FinalGather {
     return lookup_.at(place.object, place.surface - lookup_.surface(place.object, 0), place.point);
   }
 
-  // The point of the same sheet that is seen beside a place, in a direction that differs by part of a pixel; nothing where the sheet bends
-  // away.
-  [[nodiscard]] std::optional<Place> beside(const Place& place, const Eye& eye, const glm::dvec3& direction) const;
+  // The point of the same sheet that is seen from the eye beside a place, in a direction (of any length) that differs by part of a pixel;
+  // nothing where the sheet bends away.
+  [[nodiscard]] std::optional<Place> beside(const Place& place, const glm::dvec3& eye, const glm::dvec3& direction) const;
 
   // Of points of one surface: their direct light. The gather must outlive it.
   [[nodiscard]] LitRegion lit_region(std::span<const Place> places) const;
