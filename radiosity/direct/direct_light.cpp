@@ -111,7 +111,7 @@ HALFLIGHT_INLINE DirectLight::Lamp DirectLight::make_lamp(const raycast::Scene& 
     flat = flat && object.flat();
     Facets facets = part.sheets.size() > 1 ? facets_of(surface, part.sheets)
                     : object.exact()       ? facets_of(surface, sheet)
-                                           : facets_of(object, outline_tolerance(object, detail::facet_tolerance), sheet);
+                                           : facets_for_outline(object, detail::facet_tolerance, sheet);
     cut_out_covered(facets, part.object, objects, surfaces);
     for (const Facets::Facet& facet : facets.facets) {
       for (const glm::dvec3& p : facet.contour) { box.extend(p); }

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <map>
 #include <numbers>
+#include <numeric>
 #include <span>
 #include <utility>
 
@@ -18,6 +19,9 @@
 #include <raycast/box.hpp>
 #include <raycast/inline.hpp>
 #include <raycast/transform.hpp>
+
+#include <radiosity/direct/facets.hpp>
+#include <radiosity/hierarchy/curved_area.hpp>
 
 namespace radiosity {
 
@@ -48,6 +52,40 @@ HALFLIGHT_INLINE double outline_tolerance(const raycast::PlacedObject& object, d
   }
   const double size = box.empty() || box.diameter() > tight * bounds ? bounds : box.diameter();
   return part * size * (share > right_angle ? 1.0 : std::max(share, least));
+}
+
+namespace detail {
+
+// The share of a sheet's area that its facets of this tolerance have.
+[[nodiscard]] HALFLIGHT_INLINE double area_share(const Facets& facets, const raycast::PlacedObject& object, double tolerance,
+                                                 std::uint32_t sheet) {
+  const auto area = [](const Facets& all) {
+    return std::accumulate(all.facets.begin(), all.facets.end(), 0.0, [](double sum, const Facets::Facet& f) { return sum + f.area; });
+  };
+  const double flat = area(facets);
+  double curved = 0.0;
+  for (const Facets::Facet& facet : facets.facets) { curved += curved_area(object, sheet, facet.contour); }
+  constexpr double rounding = 1e-9, finer = 1.0 / 16.0;
+  if (curved > flat * (1.0 + rounding)) { return flat / curved; }
+  return flat / area(radiosity::facets_of(object, finer * tolerance, sheet));  // a flat sheet: chords cut off parts along its border
+}
+
+}  // namespace detail
+
+HALFLIGHT_INLINE Facets facets_for_outline(const raycast::PlacedObject& object, double part, std::uint32_t sheet) {
+  constexpr double least_share = 0.997;
+  constexpr std::size_t most_facets = 4096;
+  double tolerance = outline_tolerance(object, part);
+  Facets facets = facets_of(object, tolerance, sheet);
+  for (;;) {
+    const double share = detail::area_share(facets, object, tolerance, sheet);
+    if (share >= least_share) { return facets; }
+    constexpr double least_step = 0.5, most_step = 0.8;  // what chords lose is as much as the tolerance, but for their whole numbers
+    tolerance *= std::clamp((1.0 - least_share) / (1.0 - share), least_step, most_step);
+    Facets finer = facets_of(object, tolerance, sheet);
+    if (finer.facets.size() > most_facets) { return facets; }
+    facets = std::move(finer);
+  }
 }
 
 }  // namespace radiosity

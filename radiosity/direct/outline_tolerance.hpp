@@ -4,7 +4,11 @@
 // How finely a solid must be approximated for its outline. Where two sheets meet at an angle, as at the rim of a lens, the outline runs
 // along the curve between them.
 
+#include <cstdint>
+
 #include <raycast/transform.hpp>
+
+#include <radiosity/direct/facets.hpp>
 
 namespace radiosity {
 
@@ -12,6 +16,12 @@ namespace radiosity {
 // surfaces by d are off their curve by d / sin of half the angle of the solid there; a right angle counts as none, and below an eighth of
 // that of other solids the tolerance does not fall. Its size is that of a coarse approximation: bounds may be far wider.
 [[nodiscard]] double outline_tolerance(const raycast::PlacedObject& object, double part);
+
+// The facets of a sheet of a curved solid, by the tolerance above or a finer one, until they have the area of the sheet within .3 %: a long
+// tube or a thin ring has few facets around it by a tolerance that is relative to its length, and its outline is then narrower or wider
+// by 8 %, as it turns. (Around a circle n chords lose (pi / n)^2 / 6 of its length, and up to three times that of its width.) They are
+// 4096 at most, if those by the tolerance above are not more.
+[[nodiscard]] Facets facets_for_outline(const raycast::PlacedObject& object, double part, std::uint32_t sheet);
 
 }  // namespace radiosity
 

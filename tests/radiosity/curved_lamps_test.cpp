@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 
-// Curved lamps of any kind, concave ones too, light a point as many rays to them say.
+// Curved lamps of any kind, concave ones and thin ones too, light a point as many rays to them, or many points on them, say.
 
 #include <array>
 #include <cmath>
@@ -29,6 +29,7 @@
 #include <radiosity/visibility/prepare.hpp>
 
 #include "catch.hpp"
+#include "lit_world.hpp"
 #include "scenes.hpp"
 
 namespace {
@@ -106,6 +107,75 @@ TEST_CASE("direct light: a curved lamp of any kind lights points as many rays to
       CAPTURE(i, k, x.x, x.y, found, met, open);
       // Even rays that cross an outline are far less noisy than random ones: 4 standard errors of those are more than 4 of these.
       CHECK(std::abs(found - met) <= 4.0 * std::sqrt(std::max(met, 1.0 / rays) / rays) + open / 30.0);
+    }
+  }
+}
+
+namespace {
+
+// A torus about `axis`, or a cylinder along it, of this radius; and the form factor from x to what faces it, by many points.
+struct ThinLamp {
+  bool ring = false;
+  glm::dvec3 axis{0.0, 0.0, 1.0};
+  double size = 0.3, radius = 0.01;  // half the length, or the radius of the ring; that of the tube
+  static constexpr glm::dvec3 centre{0.0, 0.0, 0.8};
+
+  [[nodiscard]] std::shared_ptr<const raycast::Object> shape() const {
+    if (ring) { return raycast::Torus::make(centre, axis, size, radius).object; }
+    return raycast::Cylinder::make(centre - size * axis, 2.0 * size * axis, radius).object;
+  }
+  [[nodiscard]] double form_factor(const glm::dvec3& x) const {
+    const auto [u, v] = radiosity::orthonormal(axis);
+    constexpr int along = 2000, around = 200;
+    double sum = 0.0;
+    const auto add = [&](const glm::dvec3& p, const glm::dvec3& n, double area) {
+      const glm::dvec3 d = p - x;
+      const double r2 = glm::dot(d, d);
+      sum += std::max(0.0, d.z) * std::max(0.0, -glm::dot(n, d)) * area / (M_PI * r2 * r2);
+    };
+    for (int i = 0; i < along; ++i) {
+      const double part = (i + 0.5) / along, turn = 2 * M_PI * part;
+      const glm::dvec3 out = std::cos(turn) * u + std::sin(turn) * v;
+      const glm::dvec3 middle = centre + (ring ? size * out : size * (2 * part - 1) * axis);
+      for (int j = 0; j < around; ++j) {
+        const double angle = 2 * M_PI * (j + 0.5) / around, c = std::cos(angle), s = std::sin(angle);
+        const glm::dvec3 n = ring ? c * out + s * axis : c * u + s * v;
+        const double length = ring ? 2 * M_PI * (size + radius * c) : 2 * size;
+        add(middle + radius * n, n, length / along * (2 * M_PI * radius / around));
+      }
+    }
+    for (const double end : {-size, size}) {
+      if (!ring) { add(centre + end * axis, end < 0 ? -axis : axis, M_PI * radius * radius); }
+    }
+    return sum;
+  }
+};
+
+}  // namespace
+
+// Facets have the area of the lamp within .3 %, so the width of its outline may be off by three times that at most, as it turns; eight
+// around a tube, whatever its radius, would be off by up to 8 %.
+TEST_CASE("direct light: a tube or a ring, however thin, is as bright from all around", "[direct]") {
+  const std::uint64_t seed = std::random_device{}();
+  INFO("seed " << seed);
+  radiosity::Random random{seed, 0, 0};
+  const auto between = [&](double a, double b) { return a + (b - a) * random.uniform(); };
+  for (int i = 0; i < 12; ++i) {
+    ThinLamp lamp;
+    lamp.ring = i % 2 == 0;
+    lamp.axis = glm::normalize(glm::dvec3{between(-1, 1), between(-1, 1), between(-1, 1)});
+    lamp.radius = std::pow(10.0, between(lamp.ring ? -2.0 : -3.0, -1.5));  // of a thinner ring the facets would be too many
+    radiosity::Scene scene = scenes::floor_under_lamp(0.4);
+    scene.objects[1] = scenes::object("lamp", lamp.shape(), 1);
+    const scenes::World world{scene};
+    for (int k = 0; k < 4; ++k) {
+      const glm::dvec3 x{between(-0.9, 0.9), between(-0.9, 0.9), 0.0};
+      auto region = world.region(x, 0.01);
+      double found = 0.0;
+      for (std::size_t part = 0; part < region.size(); ++part) { found += region.unhidden(part, world.in_frame(x), {0, 0, 1}); }
+      const double exact = lamp.form_factor(x);
+      CAPTURE(i, k, lamp.ring, lamp.radius, lamp.axis.x, lamp.axis.y, lamp.axis.z, x.x, x.y, found, exact);
+      CHECK(std::abs(found - exact) <= 0.01 * exact);
     }
   }
 }
