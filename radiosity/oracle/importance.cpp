@@ -49,7 +49,7 @@ struct PointSums {
 }  // namespace detail
 
 HALFLIGHT_INLINE Importance::Importance(std::vector<ImportantPoint> points, double contrast, double area, std::size_t surfaces)
-    : points_{std::move(points)}, surfaces_{surfaces} {
+    : points_{std::move(points)}, contrast_{contrast}, surfaces_{surfaces} {
   double total = 0.0;
   for (const ImportantPoint& point : points_) { total += point.weight; }
   scale_ = total > 0.0 ? detail::share_of_weight * contrast * area / total : 0.0;

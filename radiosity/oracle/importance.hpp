@@ -34,6 +34,9 @@ class Importance {
   // `contrast`: squared ratio of the light that the scene reflects, RMS over its area, to that of the picture. `area` of the scene.
   Importance(std::vector<ImportantPoint> points, double contrast, double area, std::size_t surfaces);
 
+  // That ratio; 0 where all nodes count by their area.
+  [[nodiscard]] double contrast() const { return contrast_; }
+
   // Takes in the nodes that have become leaves since, whose patches must be there: those of the first call, then the children of leaves
   // that were split.
   void extend(const Hierarchy& hierarchy, const Patches& patches);
@@ -48,6 +51,7 @@ class Importance {
     bool uneven = false;
   };
   std::vector<ImportantPoint> points_;
+  double contrast_ = 0.0;
   double scale_ = 0.0;  // weight of a unit of the points' weight on a unit of area
   std::size_t surfaces_ = 0;
   std::vector<Of> nodes_;

@@ -38,19 +38,23 @@ namespace detail {
   return std::min(1.0, std::pow(4.0 * std::max(dim, share), 1.25)) * std::min(1.0, share / dim);
 }
 
+// Bright spots beside lamps, which the picture may not show, raise the RMS of the scene: a picture that is darker gains nothing by that.
+// Where it is darker than the mean, as a room is that a sky lights through a door, its light comes in at a few places, which are small
+// for the scene and must be found. With 1 rooms of a hundredth of the light outside err by 26 %; with 30 the dark end of
+// a hall is up to twice as bright as it should be (sky_rooms_test), with this limit by a third.
+inline constexpr double most_contrast = 120.0;
+
 // For the picture of the camera that is all that counts, if there is one.
 [[nodiscard]] HALFLIGHT_INLINE Importance importance_of_view(const Run& run) {
   const DiscreteScene& scene = run.scene;
   if (!scene.control.viewpoint || !run.solution.audit.reflected_share) { return {}; }
   ViewPaths paths = view_paths(scene, *run.tracer, *scene.control.viewpoint);
-  if (!(paths.reflected > 0.0)) { return {}; }
+  if (paths.points.empty()) { return {}; }
   const LitFaces lit{scene.view(), scene.reflectance, scene.emission, buried_nodes(scene.surfaces, scene.hierarchy)};
-  const auto contrast_to = [&](double share) { return std::pow(share * lit.mean_emission() / paths.reflected, 2.0); };
-  // Bright spots beside lamps, which the picture may not show, raise the RMS of the scene: a picture that is darker gains nothing by that.
-  // Where it is darker than the mean, as a room is that a sky lights through a door, its light comes in at a few places, which are small
-  // for the scene and must be found. With 1 rooms of a hundredth of the light outside err by 26 %; with 30 the dark end of
-  // a hall is up to twice as bright as it should be (sky_rooms_test), with this limit by a third.
-  constexpr double most_contrast = 120.0;
+  // A picture whose paths have met no light at all is as dark as can be told.
+  const auto contrast_to = [&](double share) {
+    return paths.reflected > 0.0 ? std::pow(share * lit.mean_emission() / paths.reflected, 2.0) : most_contrast;
+  };
   const double contrast = std::max(std::min(1.0, contrast_to(*run.solution.audit.reflected_share)),
                                    std::min(most_contrast, contrast_to(mean_reflected_light(scene, *run.tracer))));
   return {std::move(paths.points), contrast, lit.area(), scene.inputs.size()};
@@ -77,11 +81,12 @@ HALFLIGHT_INLINE void refine_by_forms(Run& run) {
   if (plan.lit && plan.reflects) {
     run.scene.patches.extend(run.scene.threads);
     audit.reflected_share = reflected_light(run.scene, *run.tracer);
+    run.importance = importance_of_view(run);
     const bool beside_lamps = *audit.reflected_share > least_share_beside_lamps;
-    if (run.rays.few && beside_lamps && !run.clusters.build) { run.rays = RayChoice{true, {}}; }
+    const bool through_openings = run.importance.contrast() >= most_contrast;
+    if (run.rays.few && (beside_lamps || through_openings) && !run.clusters.build) { run.rays = RayChoice{true, {}}; }
   }
   audit.lit_part = lit_part(run);
-  run.importance = importance_of_view(run);
   run.refined = refined_by_forms(run);
 }
 
