@@ -26,14 +26,14 @@ namespace radiosity {
 
 namespace detail {
 
-// solve() for sound options and light in its own unit (light_unit.hpp).
+// As solve(), for valid options and with light scaled to a unit of its own (light_unit.hpp).
 HALFLIGHT_INLINE Outcome solve_in_rounds(const Scene& scene, const Options& options, const Control& control) {
   if (!options.error) { return solve_within_memory(scene, options, control); }
   const bool of_picture = static_cast<bool>(control.picture_error);
   Outcome outcome = solve_to_error(
       options, of_picture, [&](const Options& round, std::uint64_t held) { return solve_within_memory(scene, round, control, held); });
   if (of_picture && outcome.solution && !outcome.solution->audit.converged && !control.cancelled()) {
-    // That the error is too large was decided by few pixels; how large it is takes more.
+    // The audits of the rounds used just enough pixels to decide that the error is too large; measuring how large it is takes more.
     Audit& audit = outcome.solution->audit;
     std::vector<StageTime> stages;
     Stopwatch watch{stages};
@@ -46,7 +46,7 @@ HALFLIGHT_INLINE Outcome solve_in_rounds(const Scene& scene, const Options& opti
   return outcome;
 }
 
-// solve(), but memory may run out.
+// As solve(), except that std::bad_alloc may be thrown.
 HALFLIGHT_INLINE Outcome solve_sound(const Scene& scene, const Options& options, const Control& control) {
   std::vector<std::string> sentences = faults(options);
   if (!sentences.empty()) { return failed(Failure::Kind::invalid_options, std::move(sentences)); }

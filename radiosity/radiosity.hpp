@@ -13,13 +13,13 @@
 
 namespace radiosity {
 
-// Solves the scene. With an error target the run starts coarse and refines until the audit confirms the target: the upper end of its 95 %
-// interval is at most that. Times are those of all rounds together. A run whose error stays above says so by audit.converged;
-// accuracy_target.hpp says when it gives up.
+// Solves the scene. With an error target the run starts coarse and refines until the audit confirms the target, that is, until the upper
+// end of the 95 % interval of the error is at most the target. The times reported are sums over all rounds. If the target is not reached,
+// audit.converged is false; accuracy_target.hpp says when a run gives up.
 //
-// Memory that runs out is an outcome, too: the best solution that fits, with audit.shortage, or Failure::Kind::out_of_memory. A run does
-// without a thread that cannot be started. A program that is compiled without exceptions is ended by the platform where memory runs out, as
-// anywhere; Options::memory ends a run before that.
+// Running out of memory is an outcome, too: either the best solution that fits, with audit.shortage set, or Failure::Kind::out_of_memory.
+// A thread that cannot be started is done without. In a program compiled without exceptions the platform ends the process when an
+// allocation fails; to end the run before that, set Options::memory.
 [[nodiscard]] Outcome solve(const Scene& scene, const Options& options = {}, const Control& control = {});
 
 }  // namespace radiosity

@@ -28,22 +28,23 @@ namespace radiosity {
 // About half of what the solver accepts (too_many_links), because a round has up to twice the links of the one before.
 inline constexpr std::uint64_t link_budget = 10'000'000;
 
-// What the solutions and pictures of all rounds may take, in rays of paths among few polygons (audit_effort.hpp), which are about a
-// microsecond each. It does not depend on the target, nor on what audits found.
+// Limit on the work of all solutions and pictures together, counted in path-tracing rays of a scene of few polygons (audit_effort.hpp),
+// about a microsecond each. It depends neither on the target nor on what the audits found.
 inline constexpr std::uint64_t work_budget = 40'000'000;
 
-// Bytes that a round may take when Options::memory says nothing. A lamp a millimetre from a wall has links without end.
+// Memory limit of a round, in bytes, when Options::memory is not set. Needed because a lamp a millimetre from a wall would be
+// refined endlessly.
 inline constexpr std::uint64_t memory_of_rounds = 2'000'000'000;
 
 namespace detail {
 
-// The error at which a target aims.
+// The measured error that the target refers to.
 [[nodiscard]] HALFLIGHT_INLINE std::optional<ErrorEstimate> aimed_error(const Audit& audit, const Options& options, bool of_picture) {
   if (of_picture) { return audit.picture_error ? std::optional{audit.picture_error->error} : std::nullopt; }
   return options.reconstruction != Reconstruction::none ? audit.surface_error : audit.leaf_error;
 }
 
-// What the solution holds, except for its BReps, which end with the run.
+// Bytes that the solution occupies, without its BReps, which are freed when the run ends.
 HALFLIGHT_INLINE std::uint64_t bytes_of(const Solution& solution) {
   const Mesh& mesh = solution.mesh;
   return solution.hierarchy.capacity() * (sizeof(Node) + sizeof(Color) + 2 * sizeof(double)) +
@@ -51,7 +52,7 @@ HALFLIGHT_INLINE std::uint64_t bytes_of(const Solution& solution) {
          mesh.corners.capacity() * sizeof(MeshCorner) + mesh.faces.capacity() * sizeof(MeshFace);
 }
 
-// The fineness of the rounds, one after the other.
+// Chooses the thresholds of each round.
 class Rounds {
  public:
   Rounds(const Options& options, bool of_picture) : round_{options}, of_picture_{of_picture} {
@@ -63,13 +64,13 @@ class Rounds {
 
   [[nodiscard]] const Options& options() const { return round_; }
 
-  // Why the rounds end after this one; empty when they go on. The next is finer where the error is: in the light of lamps, in the rest, or
-  // in both.
+  // Returns the reason why no round follows this one, or an empty string. The thresholds of the next round are reduced where the error
+  // is: for the light of lamps, for the rest, or for both.
   [[nodiscard]] std::string next(const Audit& audit) {
     const std::optional<ErrorEstimate>& error = !of_picture_          ? audit.steering_error
                                                 : audit.picture_error ? audit.picture_error->steering
                                                                       : nothing_;
-    // Where noise hides the error nothing is known of it: a finer solution may cost a larger audit, which tells.
+    // While noise hides the error, nothing is known about it: a finer solution may bring a larger audit, which then shows the error.
     const bool seen = error && error->low > 0.0;
     const bool gained = seen && (!least_ || error->relative_l2 < 0.95 * *least_);
     if (gained) { least_ = error->relative_l2; }
@@ -79,7 +80,7 @@ class Rounds {
     round_.light_epsilon = (direct > 0.35 ? step : 1.0) * audit.light_epsilon;
     if (direct < 0.65) {
       round_.epsilon *= step;
-      round_.min_area *= step * step;  // so does what the ends of shadows and contacts leave out
+      round_.min_area *= step * step;  // scales with the area that shadow ends and contacts leave unresolved
     }
     round_.target *= 0.5;
     const bool floor =
@@ -97,9 +98,9 @@ class Rounds {
  private:
   Options round_;
   bool of_picture_;
-  std::optional<double> least_;  // error that was seen
+  std::optional<double> least_;  // smallest error seen so far, above the noise
   int without_gain_ = 0;         // rounds
-  std::uint64_t work_ = 0;       // of all rounds
+  std::uint64_t work_ = 0;       // of all rounds so far, in rays
   const std::optional<ErrorEstimate> nothing_{};
 };
 
@@ -111,7 +112,7 @@ HALFLIGHT_INLINE Failure not_measurable(bool of_picture) {
                         "epsilon instead of an error"}};
 }
 
-// Why there is no further solution.
+// Records in `best` why no further solution follows.
 HALFLIGHT_INLINE void end_with(const Failure& failure, Audit& best) {
   best.interrupted = failure.kind == Failure::Kind::cancelled;
   if (failure.kind == Failure::Kind::out_of_memory) {

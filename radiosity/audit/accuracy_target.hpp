@@ -3,14 +3,14 @@
 
 // The rounds that meet an error target: ever finer solutions, until the audit confirms that one is fine enough.
 //
-// The target does not change the rounds; it only decides after which of them the run ends. So a tighter target ends at the same solution as
-// a looser one, or at a finer one; or sooner, where its larger audit shows that it is met. A run gives up when a round needed
-// more than link_budget links, when the next one would bring the work of all above work_budget, when the thresholds have reached their
-// floor, or when three rounds running were no better than the best before them; Audit::rounds_ended_by says which. It ends, too, when a
-// round would take more memory than Options::memory allows, or memory_of_rounds where that says nothing (Audit::shortage). All that is
-// counted, not timed, and does not depend on the target. It then returns the last one, unless an earlier one is better beyond the doubt of
-// both audits. The size of an audit depends on the target; so that the rounds do not, they are planned and compared by points of their own
-// (Audit::steering_error, PictureError::steering).
+// The target does not change the rounds; it only decides after which of them the run ends. A tighter target therefore ends at the same
+// solution as a looser one or at a finer one (or earlier, if its larger audit already shows that the target is met). A run gives up when
+// a round needed more than link_budget links, when the next round would bring the total work above work_budget, when the thresholds have
+// reached their lower limit, or when three rounds in a row did not improve on the best one; Audit::rounds_ended_by says which. It also
+// ends when a round would need more memory than Options::memory (default: memory_of_rounds); see Audit::shortage. All of this is counted,
+// not timed, and does not depend on the target. The run then returns its last solution, unless an earlier one is better by more than the
+// uncertainty of both audits. The size of an audit depends on the target. So that the rounds do not, they are planned and compared by a
+// separate set of points (Audit::steering_error, PictureError::steering).
 
 #include <cstdint>
 #include <functional>
@@ -22,7 +22,8 @@ namespace radiosity {
 
 namespace detail {
 
-// `solve_round` solves at a given fineness, while so many bytes are held by an earlier solution, and measures the errors.
+// `solve_round` solves at the fineness of the given options and measures the errors; `held`: bytes that an earlier solution
+// occupies meanwhile.
 [[nodiscard]] Outcome solve_to_error(const Options& options, bool of_picture,
                                      const std::function<Outcome(const Options&, std::uint64_t held)>& solve_round);
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Whether an audit's paths are to be aimed at bright places (PathTracer::aimed). In a room with a lamp in a shade that makes the variance a
-// tenth or less; where these places matter little it doubles it. So both are tried at points such as the audit draws, and the audit draws
-// others: what a try has found must not count.
+// Decides whether the paths of an audit are aimed at bright places (PathTracer::aimed). In a room with a lamp in a shade, aiming reduces
+// the variance to a tenth or less; where bright places matter little, it doubles the variance. So both tracers are tried at points drawn
+// as in the audit. The audit itself then draws other points, because a choice made by looking at its own samples would bias it.
 
 #include <cmath>
 #include <cstddef>
@@ -21,14 +21,14 @@
 
 namespace radiosity {
 
-// A point of a surface, and how much it counts.
+// A point of a surface and its statistical weight.
 struct PathStart {
   raycast::SurfacePoint point;
   std::uint32_t object = 0, sheet = 0;
   double weight = 1.0;
 };
 
-// An audit of fewer rays ends before a try has paid.
+// An audit with fewer rays than this would be over before the trial has paid for itself.
 inline constexpr std::uint64_t least_rays_to_aim = 2'000'000;
 
 struct AimingTry {
@@ -36,14 +36,16 @@ struct AimingTry {
   std::uint64_t rays = 0;
 };
 
-// Do aimed paths tell clearly more for the same time? `start(i)`: point i of `points`, if it counts.
+// Is the variance of aimed paths clearly smaller for the same time? `start(i)` returns point i of `points`, or nothing if that
+// point does not count.
 template <class Start>
 [[nodiscard]] AimingTry try_aiming(const PathTracer& plain, const PathTracer& aimed, std::uint64_t seed, std::uint32_t points,
                                    unsigned threads, const Start& start) {
   constexpr std::uint32_t paths = 32;
-  // An aimed path takes about 1.4 times as long, and from few points the variance of paths that find a place by chance looks too small.
+  // An aimed path takes about 1.4 times as long. Moreover, few points underestimate the variance of plain paths, which hit a place only
+  // by chance.
   constexpr double least_gain = 2.0;
-  const std::uint64_t own_seed = scramble(seed ^ 0x61696d696e67ull);  // paths that the audit does not trace
+  const std::uint64_t own_seed = scramble(seed ^ 0x61696d696e67ull);  // other random numbers than those of the audit
   struct Point {
     double noise_plain = 0.0, noise_aimed = 0.0;
     std::uint64_t rays = 0;

@@ -14,10 +14,10 @@ namespace radiosity {
 
 namespace detail {
 
-// The standard error of the mean that shows what the goal asks for, by what a pilot saw in which `met` points count. The pilot's own doubt
-// stands in for an error that it hides.
+// The standard error of the mean that the goal requires, estimated from a pilot in which `met` points count. Where noise hides the error,
+// the standard error of the pilot takes its place.
 [[nodiscard]] HALFLIGHT_INLINE double standard_error_needed(const AuditGoal& goal, const ErrorSums::Moments& seen, double met) {
-  constexpr double reserve = 1.1;  // a pilot sees the variance mostly too small
+  constexpr double reserve = 1.1;  // because a pilot mostly underestimates the variance
   const double target = goal.wanted ? *goal.wanted * *goal.wanted : 0.0;
   const double doubt = std::sqrt(seen.variance / met);
   return (goal.wanted ? std::max(std::abs(target - seen.ratio), 0.1 * target) / 2.5
@@ -25,13 +25,13 @@ namespace detail {
          reserve;
 }
 
-// What a pilot tells of more paths at each point, or fewer. The noise is that of a product of two estimates, so its variance falls at least
-// with the square of their number. What is left is what the points themselves differ by; a pilot that sees nothing but noise does not know
-// it, so a tenth is kept for it.
+// Predicts the effect of more or fewer paths at each point. The noise is that of a product of two estimates, so its variance falls at
+// least with the square of the number of paths. The remaining variance is the difference between points. A pilot that sees only noise
+// cannot separate the two, so at least a tenth is attributed to the points.
 struct PathModel {
   double variance = 0.0, noise_share = 0.0;  // of one point (ErrorSums::Moments)
-  double rays = 0.0;                         // a point
-  std::uint32_t paths = 4;                   // of the pilot
+  double rays = 0.0;                         // rays a point
+  std::uint32_t paths = 4;                   // paths a point of the pilot
 
   [[nodiscard]] double variance_at(std::uint32_t of) const {
     const double fewer = static_cast<double>(paths) / of, noise = std::clamp(noise_share, 1.0 / 32.0, 0.9);
@@ -40,14 +40,14 @@ struct PathModel {
   [[nodiscard]] double rays_at(std::uint32_t of) const { return rays * of / paths; }
 };
 
-// The points and paths that give the standard error `off` for the least rays, or the least one for `left` rays. At least `fewest` points,
-// of which the share `met` sees light, and as many as `anyhow` rays pay for.
+// The number of points and paths that reaches the standard error `off` with the least rays, or, if `left` rays do not suffice, the
+// smallest standard error. At least `fewest` points (the share `met` of them sees light), and at least as many as `anyhow` rays pay for.
 [[nodiscard]] HALFLIGHT_INLINE Effort best_effort(const PathModel& model, double off, double met, double fewest, double anyhow,
                                                   double left) {
   constexpr std::uint32_t least = 4, most_more = 8;
   Effort best;
   double best_variance = 0.0, best_rays = 0.0;
-  // Down to a quarter of the paths where there is next to no noise, or where the rays do not go further.
+  // Try as few as a quarter of the paths if there is next to no noise, or if the rays do not suffice otherwise.
   std::uint32_t first = model.noise_share < 1.0 / 32.0 ? std::max(least, model.paths / 4) : model.paths;
   while (first > least && fewest * model.rays_at(first) > left) { first /= 4; }
   first = std::max(first, least);
@@ -84,9 +84,9 @@ HALFLIGHT_INLINE Effort next_effort(const AuditGoal& goal, std::uint64_t least, 
   const double off = standard_error_needed(goal, *seen, met);
   const double needed = seen->variance / (off * off) * few / met;
   const std::uint64_t rays = goal.wanted && seen->ratio <= target ? std::max(goal.rays, goal.rays_to_show) : goal.rays;
-  // The noise of the paths falls with the square of their number, so more paths at fewer points pay until it is half of the variance.
-  // From few points its share is mostly seen too small. Where the least number of points shows the target, they may cost no more than
-  // the solution. All pilots together take half of the rays at most.
+  // The noise variance falls with the square of the number of paths, so trading points for paths pays until noise makes up half of the
+  // variance. Few points mostly underestimate its share. Where the least number of points already confirms the target, they may cost no
+  // more than the solution. All pilots together take at most half of the rays.
   const auto affordable = [&](std::uint64_t of) {
     const double then = used + 4.0 * own, all = static_cast<double>(of);
     return 2.0 * then <= all && then + 4.0 * own * fewest / few <= all;
@@ -94,9 +94,10 @@ HALFLIGHT_INLINE Effort next_effort(const AuditGoal& goal, std::uint64_t least, 
   if (seen->noise_share > 0.2 && affordable(needed > static_cast<double>(least) ? rays : goal.rays)) {
     return {pilot.points, 4 * pilot.paths};
   }
-  // A pilot in which a few points outshine all others knows little of either mean.
+  // If a few points outshine all others, the pilot estimates neither mean nor variance well.
   const bool uneven = seen->equal_points < std::min(16.0, met / 4.0);
-  // Pilots may take more while they find the target met. When the last of them finds it missed, the audit takes as many rays as that one.
+  // Pilots may take more rays while they find the target met. If the last of them finds it missed, the audit takes as many rays as that
+  // pilot.
   const double left = std::max(goal.wanted ? own : 0.0, static_cast<double>(rays) - used);
   return best_effort({seen->variance, seen->noise_share, own / few, pilot.paths}, off, met / few, fewest,
                      uneven ? left : static_cast<double>(goal.rays_anyhow), left);
@@ -109,9 +110,9 @@ HALFLIGHT_INLINE std::optional<Effort> further_effort(const AuditGoal& goal, con
   if (!seen || !error || !(seen->variance > 0.0)) { return std::nullopt; }
   const auto points = static_cast<double>(audit.points), met = static_cast<double>(sums.square.size());
   const double doubt = std::sqrt(seen->variance / met), target = goal.wanted ? *goal.wanted * *goal.wanted : 0.0;
-  // A standard error of half of the mean square makes the interval as wide as its root; some less leaves room for chance. So it does for
-  // a target: the interval ends two standard errors above the mean. A mean closer to the target than `least_gap` of it may be so by chance;
-  // then the target stays open, for a finer solution shows more for the same rays.
+  // The interval is as wide as the error itself when the standard error is half of the mean square; aim at less, as a reserve for chance.
+  // The same holds for a target, because the interval ends two standard errors above the mean. A mean that is closer to the target than
+  // the fraction `least_gap` may be so by chance; the target then stays undecided, because a finer solution tells more for the same rays.
   constexpr double least_gap = 0.15;
   double off = 0.25 * std::max(seen->ratio, doubt), most = 0.5 * (std::max(seen->ratio, 0.0) + doubt);
   auto left = goal.rays_if_wide > 0 ? static_cast<double>(goal.rays + goal.rays_if_wide) - static_cast<double>(spent) : 0.0;

@@ -30,17 +30,20 @@ namespace radiosity {
 
 namespace detail {
 
-// Photons. From fewer than the least one does not know the area of a cell.
+// Photons a cell. With fewer than the least number the area of a cell is not known.
 inline constexpr std::uint32_t most_of_cell = 32, least_of_cell = 8;
-// A cell is bright that reflects so much more for its area than all do that are not; found in rounds, for the brightest hide others.
+// A cell is bright if it reflects this many times as much per area as the mean of the cells that are not bright. Found in rounds, because
+// the brightest cells raise the mean and hide others.
 inline constexpr double place_contrast = 8.0;
 inline constexpr int place_rounds = 8;
-// Places matter that hold this part of the light, and no more than this part of the area: the rest is found well enough by chance.
+// Places are used if they hold at least this share of the light and at most this share of the area; otherwise unaimed paths find them
+// well enough.
 inline constexpr double least_of_light = 0.1, most_of_area = 0.05;
-// How often a place is chosen by the photons around a point; else by its power over its squared distance, though it may be hidden.
+// Share of the choices made by the photons around a point; the others are made by power over squared distance, whether hidden or not.
 inline constexpr double by_photons = 0.75;
-// Of the diameter of the scene. A direction at the border of a cone must have the density that chose it, and rounding of its cosine is not
-// to decide that: it is some 1e-16, the squared sine of a cone at least 1e-9, and a millionth of that is added to each.
+// least_radius: relative to the diameter of the scene. border_of_cone: a direction at the border of a cone must have the density with
+// which it was chosen, and rounding must not decide that. The rounding error of the squared sine is about 1e-16 and the squared sine
+// itself at least 1e-9; adding a millionth of it covers the error.
 inline constexpr double least_radius = 1e-4, border_of_cone = 1e-6;
 
 }  // namespace detail
@@ -101,7 +104,7 @@ HALFLIGHT_INLINE std::vector<BrightPlaces::Reflected> BrightPlaces::bright_light
     open.push_back(place_of(light, second, cell.last));
   }
   double power = all, rest = area;
-  auto bright = cells.end();  // from there on they are
+  auto bright = cells.end();  // cells from here on are bright
   for (int round = 0; round < detail::place_rounds && rest > 0.0; ++round) {
     const double least = detail::place_contrast * power / rest;
     const auto first = std::stable_partition(cells.begin(), bright, [&](const Place& cell) {
@@ -180,7 +183,7 @@ HALFLIGHT_INLINE std::optional<glm::dvec3> BrightPlaces::From::direction(double 
   choice /= share_;
   std::size_t k = 0;
   for (; k + 1 < count_ && choice >= cones_[k].chance; ++k) { choice -= cones_[k].chance; }
-  // Evenly within the cone; from within the sphere, in all directions.
+  // Uniformly distributed within the cone; in all directions if the point lies within the sphere.
   const Cone& cone = cones_[k];
   const double below = cone.sine2 < 1.0 ? u * cone.sine2 / (1.0 + std::sqrt(1.0 - cone.sine2)) : 2.0 * u;  // 1 - cosine, from the axis
   const glm::dvec3 axis = cone.square > 0.0 ? cone.axis / std::sqrt(cone.square) : normal_;

@@ -26,23 +26,23 @@ namespace radiosity {
 
 namespace detail {
 
-// From so many the fractions of stray rays are known to 1 %.
+// With this many rays the fraction of stray rays is known to 1 %.
 inline constexpr std::uint32_t stray_ray_count = 2500;
 
-// When of these four are lost, less than 5e-4 of the light is (95 % bound of a Poisson count): no more than what quadrature and sampling
-// have wrong in the row sums, so that to take these for 1 is the better guess. In white rooms the row sums are most of the error. One ray
-// may be lost between two triangles that share an edge.
+// When at most most_lost rays are lost, less than 5e-4 of the light is lost (95 % bound of a Poisson count). That is no more than the
+// error of the row sums by quadrature and sampling, so setting them to 1 is the better estimate; in white rooms the row sums are most of
+// the error. A few lost rays are allowed because a ray may slip between two triangles that share an edge.
 inline constexpr std::uint32_t closing_ray_count = 20'000, most_lost = 4;
 
-// Of fewer rays a part is not known to be closed.
+// A part with fewer rays is not known to be closed.
 inline constexpr std::uint32_t fewest_closing_rays = 1000;
 
-// Lamps are mostly too small for rays to find them by chance. Each has so many of its own, which only connect; where lamps are many, they
-// have none, for then no single one matters.
+// Lamps are mostly too small to be hit by chance, so each casts this many rays of its own, which only connect it to a part. With more
+// than most_lamps lamps they cast none, because then no single lamp matters.
 inline constexpr std::uint32_t rays_of_lamp = 16;
 inline constexpr std::size_t most_lamps = 256;
 
-// Leaves, to be drawn by their exposed area.
+// Leaves, drawn with probability proportional to their exposed area.
 struct LeafArea {
   std::vector<std::uint32_t> leaves;
   std::vector<double> until;  // cumulative area
@@ -51,7 +51,7 @@ struct LeafArea {
     leaves.push_back(leaf);
     until.push_back((until.empty() ? 0.0 : until.back()) + area);
   }
-  // `part`, in [0, 1): of the area.
+  // The leaf at the fraction `part`, in [0, 1), of the cumulative area.
   [[nodiscard]] std::uint32_t at(double part) const {
     const auto found = static_cast<std::size_t>(std::upper_bound(until.begin(), until.end(), part * until.back()) - until.begin());
     return leaves[std::min(found, leaves.size() - 1)];
@@ -75,7 +75,8 @@ struct RayEnd {
   }
   const Node& node = scene.hierarchy[leaf];
   const std::uint32_t sheet = node.surface - scene.surfaces[node.object].first_surface;
-  // A patch is a chord of its surface: where this runs into another object, what is exposed of the chord may be buried of the surface.
+  // A patch is a chord of its curved surface. Where the surface runs into another object, a point may be exposed on the chord but buried
+  // on the surface.
   const std::uint32_t own = input_face(scene.hierarchy, leaf);
   const raycast::SurfacePoint from = scene.objects.object(node.object).project(sheet, p);
   if (scene.objects.covered(from.position, from.normal, node.object)) { return {own, own, RayEnd::What::front}; }
@@ -89,7 +90,7 @@ struct RayEnd {
   return {own, met == no_node ? own : input_face(scene.hierarchy, met), RayEnd::What::front};
 }
 
-// One ray from each of `rays` points, spread over the area.
+// Casts one ray from each of `rays` points, stratified over the area.
 [[nodiscard]] HALFLIGHT_INLINE std::vector<RayEnd> cast(const DiscreteScene& scene, const LeafLocator& leaves, const LeafArea& area,
                                                         std::uint32_t rays, std::uint64_t key) {
   std::vector<RayEnd> ends(area.leaves.empty() ? 0 : rays);
@@ -115,7 +116,7 @@ struct RayEnd {
   return stray;
 }
 
-// The parts that the rays connect, each by one of its input faces, with the rays from it.
+// Input faces joined by rays; each part is named by one of its input faces and counts the rays cast from it.
 struct ConnectedParts {
   enum class Closed : char { unknown, no, yes };
 
@@ -132,7 +133,7 @@ struct ConnectedParts {
       lost[joined.find(end.from)] += end.what == RayEnd::What::front ? 0 : 1;
     }
   }
-  // Is the part of this input face closed, by so many rays in all?
+  // Is the part of this input face closed, judged from `of` rays cast in all?
   [[nodiscard]] Closed closed(std::uint32_t face, std::uint32_t of) {
     const std::uint32_t part = joined.find(face);
     if (std::uint64_t{rays[part]} * closing_ray_count < std::uint64_t{fewest_closing_rays} * of) {
@@ -145,11 +146,12 @@ struct ConnectedParts {
   std::vector<std::uint32_t> rays, lost;
 };
 
-// The nodes of closed parts, those below their input faces included. Empty where there are none.
+// The nodes of closed parts, with all descendants of their input faces. Empty if there are none.
 [[nodiscard]] HALFLIGHT_INLINE std::vector<bool> closed_nodes_of(const DiscreteScene& scene, ConnectedParts& parts, std::uint32_t rays) {
   using Closed = ConnectedParts::Closed;
   const Hierarchy& hierarchy = scene.hierarchy;
-  std::vector<bool> some(scene.inputs.size(), false), open(scene.inputs.size(), false);  // surfaces: of what is known of their faces
+  // By surface: is some face in a closed part, some in an open one?
+  std::vector<bool> some(scene.inputs.size(), false), open(scene.inputs.size(), false);
   const auto each_face = [&](const auto& visit) {
     for (std::uint32_t i = 0; i < hierarchy.size(); ++i) {
       if (is_input_face(hierarchy, i)) { visit(i, hierarchy[i].surface, parts.closed(i, rays)); }
@@ -175,7 +177,7 @@ struct ConnectedParts {
 // Is there a closed part that emits light of some channel and absorbs none of it?
 [[nodiscard]] HALFLIGHT_INLINE bool keeps_all_light(const DiscreteScene& scene, ConnectedParts& parts, const std::vector<bool>& closed) {
   for (int c = 0; c < 3; ++c) {
-    std::vector<bool> emits(closed.size(), false), absorbs(closed.size(), false);  // of each part, at one of its input faces
+    std::vector<bool> emits(closed.size(), false), absorbs(closed.size(), false);  // by part, stored at the input face that names it
     for (std::uint32_t i = 0; i < scene.hierarchy.size(); ++i) {
       if (!is_input_face(scene.hierarchy, i)) { continue; }
       const std::uint32_t part = parts.joined.find(i), surface = scene.hierarchy[i].surface;
@@ -212,7 +214,7 @@ HALFLIGHT_INLINE ClosedParts find_closed_parts(const DiscreteScene& scene) {
     }
     parts.count(ends);
     found.stray = detail::count_stray(ends);
-    // Where the whole scene is closed, so is what no ray has met.
+    // If the whole scene is closed, so are the nodes that no ray has met.
     const bool whole = !ends.empty() && found.stray.lost() <= detail::most_lost;
     found.nodes = whole ? std::vector<bool>(scene.hierarchy.size(), true) : detail::closed_nodes_of(scene, parts, rays);
     found.lossless = !found.nodes.empty() && detail::keeps_all_light(scene, parts, found.nodes);

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Which input faces exchange light with each other alone, where no proof says that the scene is closed (visibility/enclosure.hpp): found by
-// rays. Things that cross each other or a wall keep most rooms of other programs from being proven closed, and of walls with two sides the
-// outer ones lose all their light: the rooms within are closed all the same. A wall that is longer than its room goes on outside, where
-// other walls cross it; there it was cut (wall_cuts.hpp), and of its input faces one is in the room.
+// Finds by rays which input faces exchange light only with each other, where no proof says that the scene is closed
+// (visibility/enclosure.hpp). In models of other programs objects cross each other or a wall, so most rooms cannot be proven closed; and
+// the outer sides of two-sided walls lose all their light. The rooms within are closed all the same. A wall that is longer than its room
+// continues outside, where other walls cross it; wall_cuts.hpp has cut it there, so that only one of the resulting input faces belongs to
+// the room.
 
 #include <vector>
 
@@ -15,13 +16,13 @@ namespace radiosity {
 
 struct ClosedParts {
   StrayRays stray;
-  std::vector<bool> nodes;  // by node: does its input face belong to a closed part? Empty where none does
-  bool lossless = false;    // one of the parts emits light of some channel and absorbs none of it
+  std::vector<bool> nodes;  // by node: does its input face belong to a closed part? Empty if there is no closed part
+  bool lossless = false;    // does one of the parts emit light in some channel and absorb none of it?
 };
 
-// Casts a cosine-distributed ray from each of thousands of points, spread over the exposed area. Input faces that rays connect are a part;
-// it counts as closed where hardly any of its rays meets nothing, or a black back. An input face of a part that too few rays know counts as
-// the others of its surface do, where those agree.
+// Casts a cosine-distributed ray from each of thousands of points, spread over the exposed area. Input faces connected by rays form a
+// part, which counts as closed if hardly any of its rays leaves the scene or hits a black back. An input face in a part with too few rays
+// is classified like the other faces of its surface, if those agree.
 [[nodiscard]] ClosedParts find_closed_parts(const DiscreteScene& scene);
 
 }  // namespace radiosity

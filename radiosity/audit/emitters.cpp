@@ -37,7 +37,7 @@ namespace radiosity {
 
 HALFLIGHT_INLINE bool Emitters::even(const std::vector<Surface>& surfaces, const std::vector<Color>& emission) {
   double area = 0.0, power = 0.0, brightest = 0.0, dimmest = std::numeric_limits<double>::infinity();
-  bool all_around = true;  // all that shines are walls of rooms
+  bool all_around = true;  // are all emitting surfaces walls of rooms?
   for (const Surface& surface : surfaces) {
     for (const brep::FaceId f : brep::faces(surface.brep)) {
       const std::uint32_t sheet = surface.brep.data(f).sheet;
@@ -54,7 +54,7 @@ HALFLIGHT_INLINE bool Emitters::even(const std::vector<Surface>& surfaces, const
   return brightest * area <= 1.5 * power && (all_around || brightest <= 2.0 * dimmest);
 }
 
-// How many flat faces shine alike.
+// Number of flat faces by exitance.
 [[nodiscard]] HALFLIGHT_INLINE std::map<double, std::size_t> faces_by_exitance(const Surface& surface, const std::vector<Color>& emission) {
   std::map<double, std::size_t> count;
   for (const brep::FaceId f : brep::faces(surface.brep)) {
@@ -71,8 +71,8 @@ HALFLIGHT_INLINE Emitters::Emitters(const std::vector<Surface>& surfaces, const 
   kept_as_.assign(emission.size(), none);
   node_of_.assign(emission.size(), none);
   for (const Surface& surface : surfaces) {
-    std::vector<std::vector<Polygon>> curved(surface.object->sheet_count());  // faces, by sheet
-    std::map<double, std::vector<Polygon>> bodies;                            // flat faces of an object that shine alike
+    std::vector<std::vector<Polygon>> curved(surface.object->sheet_count());  // curved faces, by sheet
+    std::map<double, std::vector<Polygon>> bodies;                            // flat faces of this object, by exitance
     const std::map<double, std::size_t> alike = faces_by_exitance(surface, emission);
     for (const brep::FaceId f : brep::faces(surface.brep)) {
       const std::uint32_t sheet = surface.brep.data(f).sheet;
@@ -140,7 +140,7 @@ HALFLIGHT_INLINE void Emitters::add_flat(std::uint32_t surface, const Polygon& p
 HALFLIGHT_INLINE void Emitters::add_curved(std::uint32_t surface, const std::vector<Polygon>& faces, const raycast::PlacedObject& object,
                                            std::uint32_t sheet, double exitance) {
   auto pieces = detail::compact_triangles(faces);
-  // How far the surface bulges out of its faces: 1.5 times what is measured in the middle of the worst face.
+  // Estimated distance between the surface and its faces: 1.5 times the largest distance measured at the triangle centres.
   double bulge = object.slack();
   for (const auto& [a, b, c] : pieces) {
     const glm::dvec3 middle = (a + b + c) / 3.0;
@@ -149,8 +149,8 @@ HALFLIGHT_INLINE void Emitters::add_curved(std::uint32_t surface, const std::vec
   add_spheres(surface, pieces, bulge, exitance);
 }
 
-// A sphere around all pieces, or, where it would show much more than they do, spheres around halves of them. The larger the spheres,
-// the fewer a ray meets: a curved room that shines all over is one.
+// Adds one sphere around all pieces, or, if that would be much larger than the pieces, spheres around halves of them. Larger spheres mean
+// that a ray meets fewer: a curved room that shines all over is one sphere.
 HALFLIGHT_INLINE void Emitters::add_spheres(std::uint32_t surface, std::span<std::array<glm::dvec3, 3>> pieces, double bulge,
                                             double exitance) {
   Shape shape;
@@ -166,8 +166,8 @@ HALFLIGHT_INLINE void Emitters::add_spheres(std::uint32_t surface, std::span<std
     for (const glm::dvec3& p : piece) { shape.radius = std::max(shape.radius, glm::length(p - shape.centre)); }
   }
   shape.radius += bulge;
-  // A square within its sphere, seen straight from the front, shows 2 / pi of it: no smaller piece shows more. A closed convex
-  // surface at this limit shows an eighth of its sphere on average (a quarter of its area: Cauchy 1832).
+  // A square inside its bounding sphere fills 2 / pi of the sphere's outline when seen from the front: no smaller piece fills more. A
+  // closed convex surface at this limit fills an eighth of its sphere's outline on average (a quarter of its area: Cauchy 1832).
   if (pieces.size() == 1 || std::numbers::pi * shape.radius * shape.radius <= 2.0 * shape.area) {
     shape.power = exitance * shape.area;
     shape.surface = surface;
@@ -184,7 +184,7 @@ HALFLIGHT_INLINE void Emitters::add_spheres(std::uint32_t surface, std::span<std
   add_spheres(surface, pieces.subspan(half), bulge, exitance);
 }
 
-// Halves the shapes [first, last): between surfaces while there are several, then by place.
+// Builds the tree of the shapes [first, last) by halving: between surfaces while there are several, then by position.
 HALFLIGHT_INLINE void Emitters::build(std::uint32_t index, std::uint32_t first, std::uint32_t last, bool several_above) {
   Node node;
   const std::span<Shape> shapes = std::span{shapes_}.subspan(first, last - first);
@@ -213,7 +213,7 @@ HALFLIGHT_INLINE void Emitters::build(std::uint32_t index, std::uint32_t first, 
     auto middle = shapes.begin() + static_cast<std::ptrdiff_t>(shapes.size() / 2);
     if (node.several) {
       std::sort(shapes.begin(), shapes.end(), [](const Shape& a, const Shape& b) { return a.surface < b.surface; });
-      // Of the borders between surfaces the one nearest to the middle.
+      // The border between two surfaces that is nearest to the middle.
       auto border = std::partition_point(shapes.begin(), shapes.end(), [&](const Shape& s) { return s.surface < middle->surface; });
       if (border == shapes.begin()) {
         border = std::partition_point(shapes.begin(), shapes.end(), [&](const Shape& s) { return s.surface <= middle->surface; });
@@ -234,7 +234,7 @@ HALFLIGHT_INLINE void Emitters::build(std::uint32_t index, std::uint32_t first, 
   nodes_[index] = node;
 }
 
-// 0 when nothing below can be seen from the front side of x, or shows its front to x.
+// Power over squared distance; 0 if nothing below can be seen from the front side of x or shows its front to x.
 HALFLIGHT_INLINE double Emitters::importance(const Node& node, const glm::dvec3& x, const glm::dvec3& n) const {
   const glm::dvec3 d = node.centre - x;
   if (!(glm::dot(n, d) + node.radius > 0.0)) { return 0.0; }
@@ -242,8 +242,8 @@ HALFLIGHT_INLINE double Emitters::importance(const Node& node, const glm::dvec3&
   return node.power / std::max(std::max(glm::dot(d, d), node.radius * node.radius), std::numeric_limits<double>::min());
 }
 
-// The probability of the first child. Between surfaces neither gets less than a tenth, for the brighter one may be hidden. NaN when
-// neither child can be seen.
+// The probability of the first child. Between surfaces neither child gets less than a tenth, because the brighter one may be hidden. NaN
+// if neither child can be seen.
 HALFLIGHT_INLINE double Emitters::first_share(const Node& node, const glm::dvec3& x, const glm::dvec3& n) const {
   const double first = importance(nodes_[node.first], x, n);
   const double second = importance(nodes_[node.first + 1], x, n);
@@ -322,8 +322,8 @@ HALFLIGHT_INLINE double Emitters::density(const glm::dvec3& x, const glm::dvec3&
 }
 
 HALFLIGHT_INLINE double Emitters::work(const glm::dvec3& x, const glm::dvec3& n, const glm::dvec3& w) const {
-  constexpr double node = 0.015;        // fitted to furnaces of some twenty walls, each of another brightness
-  constexpr std::size_t of_a_lamp = 2;  // is part of what a ray among few polygons costs
+  constexpr double node = 0.015;        // fitted to furnaces with some twenty walls of different brightness
+  constexpr std::size_t of_a_lamp = 2;  // already included in the cost of a ray among few polygons
   std::size_t opened = 0;
   static_cast<void>(density(x, n, w, none, &opened));
   return opened > of_a_lamp ? node * static_cast<double>(opened - of_a_lamp) : 0.0;

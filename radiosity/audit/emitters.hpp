@@ -1,26 +1,27 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Directions in which light may come to a point, for the path tracer: what emits, as shapes in a binary tree. A shape is chosen on the
+// Directions from which light may reach a point, for the path tracer: the emitters, as shapes in a binary tree. A shape is chosen on the
 // way down the tree, at each node by power over squared distance (Conty Estevez and Kulla 2018), then a direction towards it.
 //
-//   flat emitters     the triangles of their faces; a point of a triangle, spread evenly over its area
-//   curved emitters   spheres around pieces of their faces, large enough for the true surface; a direction, spread evenly over the solid
-//                     angle of the sphere. The larger a piece is, the better it fills its sphere: one for the whole of a compact one.
-//   bodies of faces   many flat faces of one object that shine alike are taken like a curved emitter: a bulb of thousands of triangles
-//                     is one sphere.
+//   flat emitters     the triangles of their faces; a point uniformly distributed over the area of a triangle
+//   curved emitters   spheres around pieces of their faces, large enough for the true surface; a direction uniformly distributed over the
+//                     solid angle of the sphere. A compact object gets a single sphere, because a larger piece fills its sphere better.
+//   bodies of faces   many flat faces of one object with the same exitance are handled like a curved emitter: a bulb of thousands of
+//                     triangles is one sphere.
 //
-// In a house most lamps are behind walls, whatever their power. So most choices go to an emitter by the photons of all emitters that landed
-// around x (photon_grid.hpp), and down the tree from there; the rest from its root, for photons may miss one that shines past an edge.
+// In a house most lamps are behind walls, however powerful. So most choices first pick an emitter by the photons of all emitters that
+// landed around x (photon_grid.hpp) and descend from its node; the others start at the root, because photons may miss an emitter that
+// shines past an edge.
 //
-// The shapes only propose directions: what a direction carries is found by a ray. So a shape may be larger than what it stands for,
-// overlap others or be hidden, and every direction has a density() that can be computed, which the balance heuristic needs (Veach and
-// Guibas 1995).
+// The shapes only propose directions: the light from a direction is found by a ray. So a shape may be larger than what it stands for,
+// overlap others or be hidden. Every direction has a density() that can be computed, which the balance heuristic needs (Veach and Guibas
+// 1995).
 //
-// Where nothing shines more than half as bright again as all surfaces do in the mean, as in a furnace, no direction is better than another:
-// then no shapes are made, because they would be thousands that every ray has to be tested against. A sun far away may have nearly all of
-// the area and fill next to nothing of the sky; so that holds only where nothing but walls of rooms shines, or where everything does, at
-// least half as bright as the brightest.
+// If no surface is more than 1.5 times as bright as the mean of all surfaces, as in a furnace, no direction is better than another. No
+// shapes are made then, because every ray would be tested against thousands of them. A distant sun may have nearly all of the scene's
+// area and cover next to nothing of the sky, so the rule applies only if nothing but walls of rooms emits, or if every surface emits at
+// least half as much as the brightest.
 
 #include <algorithm>
 #include <array>
@@ -53,35 +54,35 @@ class Emitters {
 
   [[nodiscard]] bool empty() const { return nodes_.empty(); }
 
-  // From now on emitters are chosen by these, too; their sources are input surfaces that shine.
+  // From now on emitters are also chosen by these photons, whose sources are emitting input surfaces. `diameter`: of the scene, m.
   void guide(std::vector<PhotonGrid::Photon> photons, double diameter);
 
   struct Sample {
     glm::dvec3 direction{0.0};  // unit
     double density = 0.0;       // per solid angle, of all shapes together
   };
-  // A direction from the point x into the hemisphere of the unit normal n; none when the chosen shape cannot be seen from there.
+  // Draws a direction from the point x into the hemisphere of the unit normal n; nothing if the chosen shape cannot be seen from there.
   template <class Numbers>
   [[nodiscard]] std::optional<Sample> sample(const glm::dvec3& x, const glm::dvec3& n, Numbers& random) const;
 
-  // The density per solid angle of the directions that sample() gives, in the unit direction w. They may sum to less than 1: what is
-  // missing are samples that gave none.
+  // The density per solid angle with which sample() draws the unit direction w. Its integral may be less than 1, because some samples
+  // give no direction.
   [[nodiscard]] double density(const glm::dvec3& x, const glm::dvec3& n, const glm::dvec3& w) const { return density(x, n, w, none); }
 
-  // About what density() costs there beyond what it does with one lamp, in microseconds of a core of 2024.
+  // Approximate cost of density() beyond its cost with a single lamp, in microseconds of a core of 2024.
   [[nodiscard]] double work(const glm::dvec3& x, const glm::dvec3& n, const glm::dvec3& w) const;
 
  private:
   static constexpr std::uint32_t none = 0xffffffff;
-  static constexpr std::size_t most_single_faces = 64;  // more of them are a body
+  static constexpr std::size_t most_single_faces = 64;  // an object with more faces of the same exitance becomes a body
 
-  // Does light come about evenly from all sides? See above.
+  // Does about the same light come from all sides? See the top of this file.
   [[nodiscard]] static bool even(const std::vector<Surface>& surfaces, const std::vector<Color>& emission);
 
   struct Shape {
     std::array<glm::dvec3, 3> corner{glm::dvec3{0.0}, glm::dvec3{0.0}, glm::dvec3{0.0}};  // of a triangle
     glm::dvec3 normal{0.0};                                                               // of a triangle, unit; 0: a sphere
-    std::array<glm::dvec3, 3> inwards{};                                                  // of its edges, in its plane
+    std::array<glm::dvec3, 3> inwards{};                                                  // unit inward normals of its edges, in its plane
     glm::dvec3 centre{0.0};
     double radius = 0.0;  // of the sphere, or of one around the triangle
     double area = 0.0;    // of the triangle, or of the piece that the sphere stands for
@@ -95,10 +96,10 @@ class Emitters {
     double power = 0.0;
     glm::dvec3 normal{0.0};   // of all shapes below, when they lie in one plane; else 0
     double offset = 0.0;      // of that plane
-    std::uint32_t first = 0;  // its shape, or the first of its two children
+    std::uint32_t first = 0;  // leaf: index of its shape; otherwise index of the first of its two children
     bool leaf = true;
-    bool several = false;          // surfaces below
-    std::uint32_t surface = none;  // of all shapes below, at the top node of this surface; else none
+    bool several = false;          // are there several surfaces below?
+    std::uint32_t surface = none;  // surface of all shapes below, set only at the top node of that surface
   };
 
   void add_flat(std::uint32_t surface, const Polygon& polygon, double exitance);
@@ -108,18 +109,19 @@ class Emitters {
   void build(std::uint32_t node, std::uint32_t first, std::uint32_t last, bool several_above);
   [[nodiscard]] double importance(const Node& node, const glm::dvec3& x, const glm::dvec3& n) const;
   [[nodiscard]] double first_share(const Node& node, const glm::dvec3& x, const glm::dvec3& n) const;
-  // Does the line from x in the direction w come through the sphere around the shapes of this node?
+  // Does the ray from x in the direction w meet the bounding sphere of this node's shapes?
   [[nodiscard]] static bool meets(const Node& node, const glm::dvec3& x, const glm::dvec3& w);
   [[nodiscard]] static double density_of(const Shape& shape, const glm::dvec3& x, const glm::dvec3& w, bool meets);
-  // As above; the direction is known to meet the shape of the leaf `sampled`, whatever rounding says. 0 where that leaf cannot be seen from
-  // x: photons around x may choose it all the same. `opened`: counts the nodes whose children are looked at.
+  // As above, but the direction is taken to meet the shape of the leaf `sampled` regardless of rounding. 0 if that leaf cannot be seen
+  // from x, which can happen because photons around x may choose it all the same. `opened`: counts the nodes whose children are visited.
   [[nodiscard]] double density(const glm::dvec3& x, const glm::dvec3& n, const glm::dvec3& w, std::uint32_t sampled,
                                std::size_t* opened = nullptr) const;
 
   std::vector<Shape> shapes_;
-  std::vector<Node> nodes_;             // the root first
-  std::vector<std::uint32_t> kept_as_;  // by input surface: the surface of its shapes, for those of a body have one; none: its own
-  std::vector<std::uint32_t> node_of_;  // by input surface: the top node of its shapes; or none
+  std::vector<Node> nodes_;  // the root first
+  // By input surface: the surface under which its shapes are stored (all surfaces of a body share one); none: its own.
+  std::vector<std::uint32_t> kept_as_;
+  std::vector<std::uint32_t> node_of_;  // by input surface: top node of its shapes, or none
   PhotonGrid photons_;
 };
 

@@ -12,17 +12,17 @@
 
 namespace radiosity {
 
-// Independent estimates of the radiosity at a point by paths of an even sequence: four groups, and two halves of two groups each, of
-// `paths` paths. `key` names the point. `trace(numbers)` traces one path and returns the light that it found.
+// Independent estimates of the radiosity at a point, from low-discrepancy paths: four groups of paths, combined in pairs to two halves of
+// `paths` paths each. `key` names the point. `trace(numbers)` traces one path and returns its light.
 //
-// The product of what two estimates are off is free of their noise on average. All six pairs of four groups leave less of it than the one
-// pair of halves: of independent paths half the variance.
+// The product of the errors of two independent estimates has no noise term on average. The mean over all six pairs of four groups has
+// half the variance of the single product of the two halves.
 struct PathEstimates {
   static constexpr std::uint32_t groups = 4;
   Color all[groups] = {};
-  Color direct[groups] = {};  // the part that is emitted, or was reflected once
+  Color direct[groups] = {};  // the part that is emitted or was reflected once
 
-  // `paths`: even.
+  // `paths` must be even.
   template <class Trace>
   PathEstimates(std::uint64_t seed, std::uint64_t key, std::uint32_t paths, const Trace& trace) {
     const std::uint32_t own = paths / 2;
@@ -40,7 +40,7 @@ struct PathEstimates {
 
   [[nodiscard]] Color half(int which) const { return 0.5 * (all[2 * which] + all[2 * which + 1]); }
 
-  // Unbiased estimate of the square of what `shown` is off, of all channels together.
+  // Unbiased estimate of the squared error of the radiosity `shown`, summed over the channels.
   [[nodiscard]] double square_off(const Color& shown) const {
     return of_pairs([&](std::uint32_t g) { return all[g] - shown; });
   }
@@ -51,8 +51,8 @@ struct PathEstimates {
     return of_pairs([&](std::uint32_t g) { return all[g] - direct[g] - shown; });
   }
 
-  // What the noise of the groups adds to the variance of square_off(). With v the variance of a group, the mean of six products of two
-  // errors has the variance v^2 / 6, and the square of the variance that four groups show is 5/3 v^2 on average.
+  // Estimate of the noise of the groups in the variance of square_off(). With v the variance of a group, the mean of six products of two
+  // errors has variance v^2 / 6; the square of the variance estimated from four groups is 5/3 v^2 on average.
   [[nodiscard]] double noise() const {
     const Color mean = 0.5 * (half(0) + half(1));
     double square = 0.0;

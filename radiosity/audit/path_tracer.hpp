@@ -4,19 +4,19 @@
 // Unbiased radiosity at a point of a true surface, by path tracing on the original objects. It shares nothing with the
 // solver but the scene: no mesh, no form factors, no links.
 //
-// B(x) = E(x) + rho(x) * mean of B(y) over the points y seen from x in cosine-distributed directions. At each point of a path the emitted
-// light is found twice, in a direction towards an emitter (emitters.hpp) and in the cosine-distributed one in which the path goes
-// on; the balance heuristic weighs the two (Veach and Guibas 1995). With p the density of the first per solid angle, light that
-// arrives in a direction at the angle t to the normal counts E / (p + cos t / pi) * cos t / pi: never more than E, so that no lamp,
-// however small, near or bright beside others, makes a rare path count much.
+// B(x) = E(x) + rho(x) * mean of B(y) over the points y seen from x in cosine-distributed directions. At each vertex of a path the
+// emitted light is estimated twice: in a direction towards an emitter (emitters.hpp), and in the cosine-distributed direction in which
+// the path continues. The balance heuristic weighs the two (Veach and Guibas 1995). With p the density of the first per solid angle,
+// light that arrives at the angle t to the normal counts E / (p + cos t / pi) * cos t / pi, which is at most E. So no lamp, however
+// small, near or bright, makes a rare path count much.
 //
-// Where small bright places hold much of the light, aimed() gives a tracer of which a part of the paths goes on towards them
+// Where small bright places hold much of the light, aimed() returns a tracer that continues a share of its paths towards them
 // (bright_places.hpp).
 //
-// A path ends by Russian roulette, but only once it carries little: as soon as the reflectances that it met multiply to less than a tenth,
-// or less than 1 - rho of the scene's brightest surface where that is more. If each bounce played for the path's life, the light of a white
-// closed room would be as uncertain as the length of its paths, which is of the order of 1 / (1 - rho) with a standard deviation as large.
-// The bounces that come for certain cost 3.3 times as many rays at most, and the variance of that length falls to a hundredth.
+// A path ends by Russian roulette, but only once it carries little: when the product of the reflectances along it falls below a tenth, or
+// below 1 - rho of the scene's brightest surface if that is larger. With roulette at each bounce, the light of a white closed room would
+// be as uncertain as the path length, whose mean is of the order of 1 / (1 - rho) with a standard deviation as large. The certain bounces
+// cost at most 3.3 times as many rays, and the variance of the length falls to a hundredth.
 
 #include <algorithm>
 #include <cstdint>
@@ -53,7 +53,7 @@ namespace radiosity {
 
 class PathTracer {
  public:
-  // `surfaces` are boundaries of the compiled objects in the frame; the coarser, the faster. They are not needed any more after this.
+  // `surfaces`: boundaries of the compiled objects in the frame; coarser ones are faster. They may be freed after this call.
   PathTracer(const Scene& scene, const raycast::Scene& objects, const std::vector<Surface>& surfaces) : objects_{&objects} {
     std::vector<Color> emission;
     for (const InputSurface& s : radiosity::surfaces(scene)) {
@@ -70,8 +70,8 @@ class PathTracer {
     emitters_.guide(photons_by_lamp(surfaces, emission, meet_front(), objects.ray_work()), objects.diameter());
   }
 
-  // The same with paths that are aimed at bright places, too; nothing where none matter. `surfaces`: as above. Whether they are worth it
-  // depends on where paths begin.
+  // The same tracer with some paths aimed at bright places; nothing if no such place matters. `surfaces`: as above. Whether aiming pays
+  // depends on where paths begin (aimed_paths.hpp).
   [[nodiscard]] std::optional<PathTracer> aimed(const std::vector<Surface>& surfaces) const {
     if (emitters_.empty()) { return std::nullopt; }
     std::vector<Color> emission;
@@ -85,7 +85,8 @@ class PathTracer {
     for (const Surface& surface : surfaces) {
       for (const brep::FaceId f : brep::faces(surface.brep)) { use.area += brep::area(surface.brep, f); }
     }
-    // A path that was not aimed counts 1 / (1 - share) times as much, at every reflection: in a white room many times as much.
+    // Paths that are not aimed are weighted by 1 / (1 - share) at every reflection, which multiplies over the many reflections of a white
+    // room.
     constexpr double most_share = 0.25;
     use.share = std::min(most_share, 0.5 * (1.0 - brightest_ * brightest_));
     constexpr double most_microseconds = 3e4, most_photons = 1 << 14, least_photons = 1 << 11;
@@ -102,26 +103,26 @@ class PathTracer {
 
   struct Light {
     Color all{0.0};     // B
-    Color direct{0.0};  // the part of it that is emitted, or was reflected once
+    Color direct{0.0};  // the part of it that is emitted or was reflected once
   };
-  // Counts rays and what they cost (raycast::Scene::ray_work, Emitters::work), which takes about as long again as the rays themselves.
+  // Counts rays and their cost (raycast::Scene::ray_work, Emitters::work). The counting takes about as long as the rays themselves.
   struct RayCost {
     std::uint64_t rays = 0;
     double work = 0.0;
 
-    // Of one ray, in microseconds.
+    // Mean cost of a ray, in microseconds.
     [[nodiscard]] double mean() const { return rays > 0 ? work / static_cast<double>(rays) : 0.0; }
   };
 
-  // One estimate of B at the point x of a surface with unit normal n, away from the solid. `random` gives numbers by uniform(): independent
-  // ones, or those of a path of an even sequence (sobol.hpp). Light that was reflected more than `most` times is left out. `rays`: a
-  // count, or a RayCost.
+  // One estimate of B at the point x of a surface, whose unit normal n points away from the solid. `random` supplies numbers by
+  // uniform(): independent ones, or those of a low-discrepancy path (sobol.hpp). Light that was reflected more than `most` times is left
+  // out. `rays`: a counter or a RayCost.
   template <class Numbers, class Rays>
   [[nodiscard]] Light radiosity(glm::dvec3 x, glm::dvec3 n, std::uint32_t object, std::uint32_t sheet, Numbers& random, Rays& rays,
                                 std::uint32_t most = std::numeric_limits<std::uint32_t>::max()) const {
     const Material* material = &materials_[surface(object, sheet)];
     Light result{material->emission, material->emission};
-    Color throughput{1.0}, reflected{1.0};  // reflected: by the reflectances alone, for the roulette
+    Color throughput{1.0}, reflected{1.0};  // reflected: product of the reflectances alone, for the roulette
     for (std::uint32_t reflections = 0; reflections < most; ++reflections) {
       const bool first = reflections == 0;
       const auto arrives = [&](const Color& light) {
@@ -170,13 +171,13 @@ class PathTracer {
   }
 
  private:
-  // The place that a ray has met.
+  // The surface point of a hit.
   [[nodiscard]] raycast::SurfacePoint at(const raycast::Hit& hit, const glm::dvec3& from, const glm::dvec3& direction) const {
     return objects_->object(hit.object).project(hit.sheet, raycast::Segment{from, direction * objects_->diameter()}.at(hit.t));
   }
   [[nodiscard]] const Color& emission(const raycast::Hit& hit) const { return materials_[surface(hit.object, hit.sheet)].emission; }
 
-  // What the ray from x, on a sheet of `object`, meets, if that shows its front.
+  // The first hit of the ray from x, a point on this sheet of `object`; nothing if that hit shows its back.
   template <class Rays>
   [[nodiscard]] std::optional<raycast::Hit> first_front(const glm::dvec3& x, const glm::dvec3& direction, std::uint32_t object,
                                                         std::uint32_t sheet, Rays& rays) const {
@@ -191,13 +192,13 @@ class PathTracer {
     return hit && hit->front ? hit : std::nullopt;
   }
 
-  // The cost of asking how likely it is that a lamp is sampled in this direction.
+  // Adds the cost of evaluating the emitters' density in this direction.
   template <class Rays>
   void count_emitters(const glm::dvec3& x, const glm::dvec3& n, const glm::dvec3& direction, Rays& rays) const {
     if constexpr (std::is_same_v<Rays, RayCost>) { rays.work += emitters_.work(x, n, direction); }
   }
 
-  // What light of one counts in a direction: cosine / pi over the density of all ways to find it.
+  // Weight of the light of a direction: cosine / pi over the density of all ways to sample it.
   [[nodiscard]] static double balance(double density, double cosine) {
     return density > 0.0 ? std::max(0.0, cosine) * std::numbers::inv_pi / density : 0.0;
   }

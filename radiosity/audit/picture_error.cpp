@@ -53,10 +53,10 @@ HALFLIGHT_INLINE std::optional<PictureError> PictureAudit::measure(const ShownPi
                                                                    std::uint64_t seed, const Control& control) const {
   std::uint64_t keys = 0;
   Measured measured;
-  std::uint64_t rays = 0;  // of all pilots, too
+  std::uint64_t rays = 0;  // including all pilots
   const double price = prepared_->objects.ray_work() + prepared_->objects.walk_work();
   const PixelDraw draw = draw_of(picture, goal.among_rays_of(price).rays / 8, rays, control);
-  // What is seen may lie where rays are dearer or cheaper than they are in the mean.
+  // A ray at the visible points may cost more or less than the mean over the scene, so it is priced again there.
   const bool may_aim = goal.among_rays_of(price).rays >= least_rays_to_aim;
   const std::optional<PathTracer> aimed = may_aim ? tracer_.aimed(prepared_->surfaces) : std::nullopt;
   const bool pays = aimed && aiming_pays({picture, draw, tracer_, seed}, *aimed, threads, rays);
@@ -68,7 +68,7 @@ HALFLIGHT_INLINE std::optional<PictureError> PictureAudit::measure(const ShownPi
     const std::uint32_t side = PixelDraw::side(points);
     to.samples.assign(PixelDraw::size(side), {});
     const std::uint64_t first = std::exchange(keys, keys + to.samples.size());
-    constexpr std::size_t batch = 512;  // between two looks at the cancel flag
+    constexpr std::size_t batch = 512;  // pixels between two checks of the cancel flag
     for (std::size_t done = 0; done < to.samples.size() && !control.cancelled(); done += batch) {
       parallel_for(
           std::min(batch, to.samples.size() - done), thread_count(threads),
@@ -130,7 +130,7 @@ HALFLIGHT_INLINE std::optional<PictureAudit::Seen> PictureAudit::seen(const Show
   ray.direction = glm::normalize(ray.direction) * objects.diameter();
   std::uint32_t from = raycast::no_object;
   std::uint32_t sheet = raycast::unknown_sheet;
-  constexpr int most = 10'000;  // only backs are passed, so this ends what rounding might not
+  constexpr int most = 10'000;  // limit: only back faces are passed, but rounding might repeat one endlessly
   for (int passed = 0; passed < most; ++passed) {
     ++rays;
     const auto hit = objects.closest(ray, from, sheet);
@@ -149,10 +149,10 @@ HALFLIGHT_INLINE std::optional<Color> PictureAudit::emitted(const ShownPicture& 
   if (picture.partly_lamp && picture.partly_lamp(x, y)) { return std::nullopt; }
   bool sees = false;
   Color emitted{0.0};
-  // Somewhat beyond the pixel too: few paths would miss a lamp that covers a sliver of it, which the picture shows.
+  // The 25 rays reach somewhat beyond the pixel, too: few paths would miss a lamp that covers only a sliver of it but shows in the picture.
   for (std::uint32_t k = 0; k < 25; ++k) {
     const auto at = seen(picture, x - 0.25 + 0.375 * (k % 5), y - 0.25 + 0.375 * (k / 5), rays);
-    const Color own = at ? emission(*at) : Color{0.0};  // where nothing is, nothing is emitted
+    const Color own = at ? emission(*at) : Color{0.0};  // a ray that leaves the scene meets no emission
     if (k == 0) { emitted = own; }
     if (own != emitted || (!all_emit_ && !is_black(own))) { return std::nullopt; }
     sees = sees || at.has_value();
@@ -162,8 +162,8 @@ HALFLIGHT_INLINE std::optional<Color> PictureAudit::emitted(const ShownPicture& 
 
 namespace detail {
 
-// The picture over a power of two that makes its brightest channel 1 to 2, so that squares are finite in any unit of light. What is not
-// finite counts as dark.
+// The picture divided by the power of two that scales its brightest channel to [1, 2), so that squares are finite in any unit of light.
+// Pixels that are not finite count as black.
 [[nodiscard]] HALFLIGHT_INLINE std::vector<Color> in_its_own_unit(const ShownPicture& picture) {
   std::vector<Color> radiosity(std::size_t{picture.width} * picture.height);
   double most = 0.0;
@@ -185,18 +185,19 @@ HALFLIGHT_INLINE PixelDraw PictureAudit::draw_of(const ShownPicture& picture, st
   const std::vector<Color> radiosity = detail::in_its_own_unit(picture);
   const auto square = [&](std::size_t p) { return glm::dot(radiosity[p], radiosity[p]); };
   std::vector<std::size_t> order(pixels);
-  double rest = 0.0;  // importance of the pixels that are not looked at yet
+  double rest = 0.0;  // importance of the pixels that have not been visited yet
   for (std::size_t p = 0; p < pixels; ++p) {
     order[p] = p;
     rest += square(p);
   }
   std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return std::pair{square(b), a} < std::pair{square(a), b}; });
-  // A pixel that less than one of so many points would fall on wastes few of them; but a lamp has many pixels that are equally bright.
+  // Excluding a pixel pays only if more than one in so many points would fall on it; but a lamp has many equally bright pixels, so they
+  // are visited until `enough` pixels in a row count.
   constexpr double many = 4096.0;
-  constexpr int enough = 64;  // pixels in a row that count: where lamps end
+  constexpr int enough = 64;  // pixels in a row that count: no more lamps follow
   std::vector<char> left_out(pixels, 0);
   double kept = 0.0;
-  std::optional<Color> of_lamp;  // what all of its pixels show mostly
+  std::optional<Color> of_lamp;  // radiosity of the last pixel that did not count; most pixels of a lamp have the same
   int in_a_row = 0;
   for (std::size_t k = 0; k < pixels && rays < most && !control.cancelled(); ++k) {
     const std::size_t p = order[k];
@@ -239,7 +240,7 @@ HALFLIGHT_INLINE PictureAudit::Sample PictureAudit::measure_pixel(const Series& 
   sample.weight = pixel.weight;
   const std::optional<Color> emits = emitted(picture, sample.x, sample.y, sample.rays);
   if (!emits) { return sample; }
-  bool edge = false;  // of a lamp
+  bool edge = false;  // does the edge of a lamp run through this pixel?
   const PathEstimates light{series.seed, key, paths, [&](PathNumbers& numbers) -> PathTracer::Light {
                               const double u = numbers.uniform();
                               const auto at = seen(picture, sample.x + u, sample.y + numbers.uniform(), sample.rays);
@@ -283,9 +284,9 @@ HALFLIGHT_INLINE double PictureAudit::ray_price(const Series& series) const {
 }
 
 HALFLIGHT_INLINE std::array<ShareBounds, 2> PictureAudit::shares_off(const ShownPicture& picture, const Measured& measured) {
-  // Two standard errors of the mean of both estimates are the RMS difference between them, over the pixels of a tile. Three are taken: of a
-  // hundred right pixels, two errors would show five to be wrong. From n pixels it takes Student's quantile, 3 + 7.5 / n + 17 / n^2, for as
-  // much (Abramowitz and Stegun 26.7.5).
+  // Two standard errors of the mean of both estimates equal the RMS difference between them, taken over the pixels of a tile. Three are
+  // used: with two, five of a hundred correct pixels would seem wrong. For n pixels the equivalent Student quantile is
+  // 3 + 7.5 / n + 17 / n^2 (Abramowitz and Stegun 26.7.5).
   std::array<double, 16> doubt{}, count{}, pixels{};
   double all = 0.0;
   ErrorSums squares;
@@ -301,11 +302,11 @@ HALFLIGHT_INLINE std::array<ShareBounds, 2> PictureAudit::shares_off(const Shown
     const double n = pixels[t];
     doubt[t] = n > 0.0 ? 0.5 * (3.0 + 7.5 / n + 17.0 / (n * n)) * std::sqrt(doubt[t] / count[t]) : 0.0;
   }
-  // However noisy a pixel: not more of them can be so far off than their mean square allows (Chebyshev).
+  // Upper bound that holds however noisy a pixel is: the mean square limits the share of pixels that are so far off (Chebyshev).
   const std::optional<ErrorEstimate> rms = squares.estimate();
   const auto allowed = [&](double levels) { return rms ? rms->high * rms->high / (levels * levels) : 1.0; };
-  // Nor are more than twice as many so far off as seem to be by either of the two estimates: each errs to the side away from what is shown
-  // in at least 3 of 10 pixels, even where its noise is mostly small and seldom large, and then it shows what is off.
+  // A second upper bound: at most twice as many pixels are so far off as either estimate alone shows. Each estimate errs away from the
+  // picture's value in at least 3 of 10 pixels, even if its noise is mostly small and seldom large, and then it shows the deviation.
   const auto share = [&](double levels) {
     ShareBounds bounds;
     double seen = 0.0;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The error of a picture: what the camera does not see does not count, and what it sees large counts much. Half of the pixels are drawn
-// evenly, half where the picture is bright or changes (pixel_draw.hpp). The truth of a pixel is the mean of the path-traced radiosity over
-// its square, estimated twice and independently (error_estimate.hpp).
-// Pixels in which a lamp shows are left out, for its radiosity is exact by definition and would hide all else, unless every surface
-// emits; so are those that see nothing. Errors are relative to the reflected radiosity. It does not matter how the picture was made.
+// The error of a picture: surfaces that the camera does not see do not count, and surfaces that fill many pixels count much. Half of the
+// pixels are drawn uniformly, half where the picture is bright or changes (pixel_draw.hpp). The true value of a pixel is the mean of the
+// path-traced radiosity over its square, estimated twice independently (error_estimate.hpp). Pixels that show a lamp are left out (unless
+// every surface emits), because emitted light is exact by definition and would dominate the norm; pixels that see nothing are left out,
+// too. Errors are relative to the reflected radiosity. How the picture was made does not matter.
 
 #include <array>
 #include <cstddef>
@@ -30,26 +30,27 @@
 
 namespace radiosity {
 
-// A picture as the audit wants it.
+// What the audit needs to know of a picture.
 struct ShownPicture {
   std::uint32_t width = 0, height = 0;
-  // The ray through the point (x, y), in pixels from the top left corner, in the scene's coordinates; its length does not matter.
+  // The ray through the point (x, y), in pixels from the top left corner; in scene coordinates, of any length.
   std::function<raycast::Segment(double x, double y)> ray;
-  // What the pixel shows: mean radiosity over its square, W/m2, without any limit of brightness.
+  // Mean radiosity that the pixel shows, W/m2 a channel, not clamped.
   std::function<Color(std::uint32_t x, std::uint32_t y)> radiosity;
   // The level, 0 to 255, at which the radiosity of one channel is displayed.
   std::function<double(double radiosity)> level;
-  // Is the pixel known to show a lamp in a part of it? Then it does not count. The samples of the picture find lamps that are much smaller
-  // than a pixel where those of the audit miss them: the picture would seem to be too bright by all that the lamp shines. May be empty.
+  // Does the pixel partly show a lamp? Then it does not count. The picture's samples may find a lamp much smaller than a pixel that the
+  // audit's samples miss, and the picture would seem too bright by the light of that lamp. May be empty.
   std::function<bool(std::uint32_t x, std::uint32_t y)> partly_lamp = nullptr;
 };
 
 class PictureAudit {
  public:
-  // Nothing for a scene that is faulty, or of which paths do not end (plan.hpp).
+  // Nothing for an invalid scene, or for one in which paths do not end (plan.hpp).
   [[nodiscard]] static std::optional<PictureAudit> make(const Scene& scene);
 
-  // Nothing when cancelled, or when no visible pixel reflects light. `rays`: see AuditGoal. Depends on picture, goal and seed alone.
+  // Nothing when cancelled or when no visible pixel reflects light. `rays`: see AuditGoal. The result depends on picture, goal and seed
+  // alone.
   [[nodiscard]] std::optional<PictureError> measure(const ShownPicture& picture, const AuditGoal& goal, unsigned threads,
                                                     std::uint64_t seed, const Control& control = {}) const;
 
@@ -58,9 +59,10 @@ class PictureAudit {
     std::uint32_t x = 0, y = 0;
     double weight = 1.0;
     double square = 0.0, reference = 0.0, noise = 0.0;
-    double levels = 0.0, noise_in_levels = 0.0;    // the largest difference of a channel; of its two estimates from each other
-    double least_levels = 0.0, most_levels = 0.0;  // the same by the estimate that differs less, 0 where they differ to both sides; more
-    double square_in_levels = 0.0;                 // as `square`, of all channels
+    double levels = 0.0, noise_in_levels = 0.0;  // largest channel difference from the truth; between the two estimates
+    // The same difference by the estimate that is nearer (0 if the two lie on both sides), and by the other one.
+    double least_levels = 0.0, most_levels = 0.0;
+    double square_in_levels = 0.0;  // as `square`, of all channels
     std::uint64_t rays = 0;
     bool valid = false;
   };
@@ -76,11 +78,11 @@ class PictureAudit {
 
   PictureAudit(const Scene& scene, const LightUnit& unit, Prepared prepared);
 
-  // The first surface that shows its front; backs are looked through, as in the pictures (lookup.hpp).
+  // The first surface that faces the camera; back faces are looked through, as in the pictures (lookup.hpp).
   [[nodiscard]] std::optional<Seen> seen(const ShownPicture& picture, double x, double y, std::uint64_t& rays) const;
   [[nodiscard]] const Color& emission(const Seen& at) const { return tracer_.material(tracer_.surface(at.object, at.sheet)).emission; }
 
-  // What is emitted there, when that is the same all over the pixel. Nothing when the pixel does not count: it sees nothing, or shows a
+  // The emitted light, when it is the same all over the pixel. Nothing when the pixel does not count because it sees nothing or shows a
   // lamp.
   [[nodiscard]] std::optional<Color> emitted(const ShownPicture& picture, std::uint32_t x, std::uint32_t y, std::uint64_t& rays) const;
 
@@ -92,16 +94,17 @@ class PictureAudit {
     std::uint64_t seed = 0;
   };
 
-  // With what probability each pixel is drawn. Bright pixels that do not count, such as lamps, are looked for first, by about `most` rays,
-  // and are never drawn, because that would be wasted. Which of them are found changes where pixels are drawn, not what the estimate means.
+  // The probability with which each pixel is drawn. Bright pixels that do not count, such as lamps, are searched for first with about
+  // `most` rays, and are never drawn, because drawing them would be wasted. Which of them are found changes where pixels are drawn, not
+  // the expected value.
   [[nodiscard]] PixelDraw draw_of(const ShownPicture& picture, std::uint64_t most, std::uint64_t& rays, const Control& control) const;
 
-  // Does it pay to aim the paths (aimed_paths.hpp)? Adds the rays that it takes to know.
+  // Does aiming the paths pay (aimed_paths.hpp)? Adds the rays of the trial to `rays`.
   [[nodiscard]] bool aiming_pays(const Series& plain, const PathTracer& aimed, unsigned threads, std::uint64_t& rays) const;
 
   [[nodiscard]] Sample measure_pixel(const Series& series, std::uint64_t key, std::size_t i, std::uint32_t side, std::uint32_t paths) const;
 
-  // What a ray of the paths from what is seen costs (PathTracer::RayCost): the mean over 256 pixels that are drawn so.
+  // The cost of a path-tracing ray from visible points (PathTracer::RayCost): the mean over 256 pixels drawn as in the audit.
   [[nodiscard]] double ray_price(const Series& series) const;
 
   [[nodiscard]] static std::size_t tile(const ShownPicture& picture, const Sample& sample) {
@@ -115,7 +118,7 @@ class PictureAudit {
   LightUnit unit_;
   std::unique_ptr<Prepared> prepared_;  // the tracer points into it
   PathTracer tracer_;
-  bool all_emit_ = false;  // every surface does
+  bool all_emit_ = false;  // does every surface emit?
 };
 
 }  // namespace radiosity

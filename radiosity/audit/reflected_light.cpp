@@ -31,10 +31,10 @@ namespace radiosity {
 
 namespace detail {
 
-// The triangles of the input faces, to choose points on them with a density that is even over each face.
+// The triangles of the input faces, for drawing points with a given density that is constant on each face.
 class FacePoints {
  public:
-  // `density`: of a face, by the index of its node.
+  // `density(node)`: per area, of the input face with this node index.
   template <class Density>
   FacePoints(const DiscreteScene& scene, const Density& density) {
     for (std::uint32_t i = 0; i < scene.hierarchy.size(); ++i) {
@@ -53,7 +53,7 @@ class FacePoints {
     std::uint32_t node = no_node;
     bool covered = false;
   };
-  // The point at a share of the total.
+  // The point at which the cumulative density reaches `share` of the total.
   [[nodiscard]] Point point(const DiscreteScene& scene, double share, Random& random) const {
     auto t = std::upper_bound(triangles_.begin(), triangles_.end(), share * total(), [](double a, const auto& b) { return a < b.until; });
     if (t == triangles_.end()) { --t; }
@@ -70,7 +70,7 @@ class FacePoints {
   struct Triangle {
     std::uint32_t node = no_node;
     glm::dvec3 a{0.0}, b{0.0}, c{0.0};
-    double until = 0.0;  // total up to and with it
+    double until = 0.0;  // cumulative density up to and including this triangle
   };
   void add(std::uint32_t node, const Polygon& convex, double density) {
     for (std::size_t k = 1; k + 1 < convex.size(); ++k) {
@@ -81,7 +81,7 @@ class FacePoints {
   std::vector<Triangle> triangles_;
 };
 
-// The mean of samples so far.
+// Running mean of samples, with its standard error.
 struct Mean {
   double sum = 0.0, squares = 0.0;
 
@@ -93,7 +93,7 @@ struct Mean {
   [[nodiscard]] double doubt(double count) const { return std::sqrt(std::max(0.0, squares / count - value(count) * value(count)) / count); }
 };
 
-// One estimate of the radiosity that was reflected once.
+// One estimate of the radiosity that is reflected once, without the emission.
 [[nodiscard]] HALFLIGHT_INLINE Color reflected_once(const PathTracer& tracer, const raycast::SurfacePoint& at, std::uint32_t object,
                                                     std::uint32_t sheet, Random& random) {
   std::uint64_t rays = 0;
@@ -101,7 +101,7 @@ struct Mean {
   return light.direct - tracer.material(tracer.surface(object, sheet)).emission;
 }
 
-// At a point spread evenly over the area: the product of two independent estimates, in which the noise of paths cancels on average.
+// Square of that radiosity at a uniformly drawn point: the product of two independent estimates, whose noise cancels on average.
 [[nodiscard]] HALFLIGHT_INLINE double square_at_point(const DiscreteScene& scene, const PathTracer& tracer, const FacePoints& area,
                                                       double share, Random random) {
   const FacePoints::Point point = area.point(scene, share, random);
@@ -112,7 +112,7 @@ struct Mean {
   return brightest(product);
 }
 
-// Where a ray from a lamp arrives at the front of a surface.
+// Point where a ray from a lamp arrives at the front of a surface.
 struct LampRayEnd {
   raycast::SurfacePoint at;
   std::uint32_t object = 0, sheet = 0;
@@ -129,7 +129,7 @@ struct LampRayEnd {
   return LampRayEnd{scene.objects.object(hit->object).project(hit->sheet, ray.at(hit->t)), hit->object, hit->sheet};
 }
 
-// Points spread evenly over the area of the lit faces, and over the emission of all that are not buried.
+// Distributions of points: uniform over the lit faces, and proportional to emission over the faces that are not buried.
 struct FacesAndLamps {
   std::vector<bool> buried;
   LitFaces lit;
@@ -143,8 +143,8 @@ struct FacesAndLamps {
               }} {}
 };
 
-// Where a ray from a lamp arrives, which is often where the light is: the radiosity there times what such rays bring in the mean over the
-// area of the lit faces, `power`.
+// Estimate of the same square from the end of a lamp ray, which often lies in a bright spot: the radiosity there times `power`, the mean
+// radiosity that such rays bring over the area of the lit faces.
 [[nodiscard]] HALFLIGHT_INLINE double square_by_lamp(const DiscreteScene& scene, const PathTracer& tracer, const FacesAndLamps& faces,
                                                      double power, double share, Random random) {
   const std::optional<LampRayEnd> end = end_of_lamp_ray(scene, faces.lamps, share, random);
@@ -184,7 +184,7 @@ HALFLIGHT_INLINE double reflected_light(const DiscreteScene& scene, const PathTr
     const double square = larger.value(count), doubt = larger.doubt(count);
     if (!(square > 0.0)) { continue; }
     result = std::sqrt(square) / emitted;
-    if (doubt < 0.2 * square || square - doubt > emitted * emitted) { break; }  // a tenth of the root
+    if (doubt < 0.2 * square || square - doubt > emitted * emitted) { break; }  // 10 % of the root
   }
   return result;
 }

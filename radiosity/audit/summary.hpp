@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Sums up a run for its audit: row sums, energy, means of the input surfaces, what was left out.
+// Summarises a run for its audit: row sums, energy balance, means of the input surfaces, shortcuts taken.
 
 #include <vector>
 
@@ -25,19 +25,22 @@ namespace radiosity {
 // Emitted = absorbed + escaped, summed over the channels (in closed scenes nothing escapes).
 void balance_energy(Audit& audit, const DiscreteScene& scene, Transport& transport, const std::vector<Color>& radiosity);
 
+// Range and area-weighted mean of the row sums of the leaves.
 Audit::Range summarise_rows(const Hierarchy& hierarchy, const std::vector<double>& area, const std::vector<double>& rows);
 
-// The share of the exposed area of leaves whose row sum is above this.
+// Share of the exposed area whose leaves have row sums above most_row_sum.
 inline constexpr double most_row_sum = 1.1;
 double overfull_share(const Hierarchy& hierarchy, const std::vector<double>& area, const std::vector<double>& rows);
 
-// A square and an equilateral triangle have proportion 1 here: that of each kind is taken relative to its best.
+// Range of the proportions of the leaves, each relative to the regular polygon with as many corners, so that squares and
+// equilateral triangles have 1.
 Audit::Range summarise_proportions(const Hierarchy& hierarchy, const Patches& patches);
 
-// A sheet of which nothing is left (a window that was cut out ends outside the wall) is no surface; one that is buried has area 0.
+// A sheet without faces (a cut-out window that ends outside the wall) is left out; a buried sheet is listed with area 0.
 void summarise_surfaces(Audit& audit, const DiscreteScene& scene, const std::vector<Color>& radiosity);
 
-// What the run left out, beyond what the plan had proven before it. `cost`: of what was not left out.
+// Reports the shortcuts that the run took, beyond those that plan.hpp had proven before it. `cost`: measured cost of the links
+// that were evaluated.
 void report_left_out(Audit& audit, const DiscreteScene& scene, const RefineResult& refined, const EvaluateResult& evaluated,
                      const Options& options, const LinkCost& cost);
 

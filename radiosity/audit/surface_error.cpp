@@ -44,7 +44,7 @@ HALFLIGHT_INLINE SurfaceErrorMeter::SurfaceErrorMeter(const Scene& scene, const 
     for (std::uint32_t k = 1; k + 1 < face.corner_count; ++k) {
       const std::uint32_t a = face.first_corner;
       const double area = 0.5 * glm::length(glm::cross(corner(a + k) - corner(a), corner(a + k + 1) - corner(a)));
-      // A corner knows the light of the leaves around it: beside a lit one a dark leaf may be wrong.
+      // The corners count, too: they have the light of the leaves around them, and a dark leaf beside a lit one may be wrong.
       double light = 0.5 * square(face.radiosity), contrast = 0.0;
       for (const std::uint32_t c : {a, a + k, a + k + 1}) {
         light += square(mesh.corners[c].radiosity) / 6.0;
@@ -73,7 +73,7 @@ HALFLIGHT_INLINE bool SurfaceErrorMeter::measure(std::uint64_t points, std::uint
   std::vector<Sample> samples(points);
   const std::uint64_t first_key = keys_;
   keys_ += points;
-  constexpr std::size_t batch = 512;  // between two looks at the cancel flag
+  constexpr std::size_t batch = 512;  // points between two checks of the cancel flag
   for (std::size_t first = 0; first < points && !control.cancelled(); first += batch) {
     parallel_for(
         std::min<std::size_t>(batch, points - first), threads,
@@ -113,9 +113,9 @@ HALFLIGHT_INLINE std::optional<SurfaceErrorMeter::Spot> SurfaceErrorMeter::spot(
   const InputSurface& input = inputs_[face.surface];
   if (!(exposure_->area[face.node] > 0.0)) { return std::nullopt; }
   const raycast::SurfacePoint point = objects_->object(input.object).project(input.sheet, chord);
-  // Beside the edge of a blade the nearest point of the surface may lie on the blade's other side, which has leaves of its own.
+  // Near the edge of a thin blade the nearest surface point may lie on the other side of the blade, which has leaves of its own.
   if (!(glm::dot(point.normal, outward(*triangle)) > 0.0)) { return std::nullopt; }
-  // Of a leaf that counts as exposed a corner may be buried all the same (exposure.hpp): seen from within what buries it, all is wrong.
+  // A leaf that counts as exposed may still have a buried corner (exposure.hpp); paths from there start inside another object.
   if (objects_->covered(point.position, point.normal, input.object)) { return std::nullopt; }
   return Spot{&*triangle, weight, point};
 }

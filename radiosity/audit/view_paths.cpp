@@ -33,10 +33,10 @@ struct PathVertex {
   std::uint32_t object = 0, sheet = 0;
 };
 
-// What a ray from the eye shows: the first front that is not buried.
+// The first front face on a ray from the eye that is not buried.
 [[nodiscard]] HALFLIGHT_INLINE std::optional<PathVertex> seen_from(const raycast::Scene& objects, const glm::dvec3& eye,
                                                                    const glm::dvec3& direction) {
-  constexpr int most = 64;  // backs
+  constexpr int most = 64;  // limit of back faces passed
   raycast::Segment ray{eye, direction * (glm::length(eye) + objects.diameter())};
   std::uint32_t owner = raycast::no_object, sheet = 0;
   for (int passed = 0; passed < most; ++passed) {
@@ -51,7 +51,7 @@ struct PathVertex {
   return std::nullopt;
 }
 
-// The points of one path, and the square of what its first point reflects.
+// The points of one path, its share of the picture, and share times the squared reflected radiosity of its first point.
 struct ViewPath {
   std::vector<ImportantPoint> points;
   double share = 0.0, square = 0.0;
@@ -69,13 +69,13 @@ struct ViewPath {
   const glm::dvec3 d = at->at.position - eye;
   const double cosine = -glm::dot(direction, at->at.normal);
   if (!(cosine > 0.0)) { return path; }
-  // Of the unit of solid angle in which it was looked for; the scene's size does not count in it.
+  // The share of the picture per unit of solid angle, independent of the scene's size.
   path.share = from.share(scene.frame.to_scene(at->at.position), at->at.normal) * glm::dot(d, d) / cosine;
   if (!(path.share > 0.0)) { return path; }
   const Material& seen = tracer.material(tracer.surface(at->object, at->sheet));
   if (is_black(seen.reflectance)) { return {}; }
   Color square{1.0};
-  for (int k = 0; k < 2; ++k) {  // two independent estimates, in which the noise of paths cancels on average
+  for (int k = 0; k < 2; ++k) {  // two independent estimates: the noise of their product cancels on average
     std::uint64_t rays = 0;
     square *= tracer.radiosity(at->at.position, at->at.normal, at->object, at->sheet, random, rays, bounces).all - seen.emission;
   }
@@ -97,7 +97,8 @@ struct ViewPath {
 }  // namespace detail
 
 HALFLIGHT_INLINE ViewPaths view_paths(const DiscreteScene& scene, const PathTracer& tracer, const Viewpoint& from) {
-  constexpr std::size_t batch = 2048, most = 32 * batch, enough = 1024;  // rays from the eye; those that are in the picture
+  // Most: rays from the eye; enough: rays that hit something in the picture.
+  constexpr std::size_t batch = 2048, most = 32 * batch, enough = 1024;
   const glm::dvec3 eye = (from.eye - scene.frame.centre) * scene.frame.scale;
   std::vector<ImportantPoint> seen, lights_it;
   double share = 0.0, square = 0.0;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// What a camera sees and where that has its light from, before anything is solved: paths that begin at the eye.
+// Traces paths from the eye, before anything is solved, to find what a camera sees and from where that receives its light.
 
 #include <vector>
 
@@ -13,13 +13,13 @@
 namespace radiosity {
 
 struct ViewPaths {
-  // Where paths met fronts, with the part of the picture that they carried there: half of all weight on what is seen, for the mesh may be
-  // shown, half on what that is lit by, for a gathered picture takes its indirect light from there.
+  // Points where paths met front faces, each with the share of the picture that the path carried there. Half of the total weight lies on
+  // what is seen, because the mesh may be shown; half on what lights it, because a gathered picture takes its indirect light from there.
   std::vector<ImportantPoint> points;
-  double reflected = 0.0;  // RMS of the radiosity that is reflected by what is seen, brightest channel: to some tenths
+  double reflected = 0.0;  // RMS of the reflected radiosity of what is seen, brightest channel; to some tens of percent
 };
 
-// The same for any number of threads. Nothing is seen where there are no points.
+// The result does not depend on the number of threads. If nothing is seen, there are no points.
 [[nodiscard]] ViewPaths view_paths(const DiscreteScene& scene, const PathTracer& tracer, const Viewpoint& from);
 
 }  // namespace radiosity

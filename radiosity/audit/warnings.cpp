@@ -35,9 +35,9 @@ namespace radiosity {
 
 namespace detail {
 
-inline constexpr std::size_t most_warnings = 20;  // of one kind
+inline constexpr std::size_t most_warnings = 20;  // of each kind
 
-// The edges at which surfaces end, each by its ends in the direction in which its face runs along it.
+// The border edges of open surfaces, each by its two end points in the direction of its face's half-edge.
 struct Borders {
   using Edge = std::array<double, 6>;
 
@@ -62,8 +62,8 @@ struct Borders {
       }
     }
   }
-  // Edges of the surface that no other one runs along in the opposite direction. One that does goes on from there: as a further part of the
-  // same shell, or as the other side of a sheet.
+  // Number of border edges of the surface that no border edge of opposite direction matches. A match continues the surface: as another
+  // part of the same shell, or as the other side of a sheet.
   [[nodiscard]] std::size_t open(const Surface& surface) const {
     std::size_t count = 0;
     each_edge(surface, [&](const Edge& e) {
@@ -75,7 +75,7 @@ struct Borders {
   std::vector<Edge> edges;
 };
 
-// The first few of `count` names, in a list.
+// The first names out of `count`, as a list.
 template <class Name>
 [[nodiscard]] std::string first_of(std::size_t count, const Name& name) {
   constexpr std::size_t most = 5;
@@ -118,7 +118,7 @@ HALFLIGHT_INLINE std::vector<std::string> warnings(const Scene& scene, const Fra
                         " open edges: their backs are black and take no light: " +
                         detail::first_of(open.size(), [&](std::size_t k) { return name(open[k]); }));
   }
-  // How well the coordinates of the scene are known, in the frame: half a unit in the last place of the largest.
+  // Rounding error of the scene's coordinates, in the frame: half a unit in the last place of the largest.
   const double magnitude = std::max({std::abs(frame.centre.x), std::abs(frame.centre.y), std::abs(frame.centre.z)});
   const double known = raycast::unit_roundoff * magnitude * frame.scale;
   if (known > 1e-10) {
@@ -139,7 +139,7 @@ HALFLIGHT_INLINE std::vector<std::string> warnings_of_buried(const Scene& scene,
   for (const InputSurface& input : surfaces(scene)) {
     shines[input.object] = shines[input.object] || !is_black(scene.materials[input.material].emission);
   }
-  // Lamps first, each in a sentence of its own as long as they are few: their light is missing.
+  // Buried lamps come first, each (up to a limit) in a sentence of its own, because their light is missing.
   std::vector<std::string> sentences;
   std::vector<std::size_t> others;
   for (std::size_t o = 0; o < area.size(); ++o) {
@@ -163,7 +163,7 @@ HALFLIGHT_INLINE std::vector<std::string> warnings_of_buried(const Scene& scene,
 }
 
 HALFLIGHT_INLINE std::string warning_of_lost_light(const DiscreteScene& scene, const std::vector<Color>& radiosity) {
-  double emitted = 0.0, reflected = 0.0, unlit = 0.0;  // unlit: area that only reflects
+  double emitted = 0.0, reflected = 0.0, unlit = 0.0;  // unlit: area that does not emit
   bool reflects = false;
   for (std::size_t i = 0; i < scene.hierarchy.size(); ++i) {
     const std::uint32_t surface = scene.hierarchy[i].surface;
@@ -176,7 +176,7 @@ HALFLIGHT_INLINE std::string warning_of_lost_light(const DiscreteScene& scene, c
     reflects = reflects || (is_black(emission) && !is_black(scene.reflectance[surface]));
     unlit += is_black(emission) ? area : 0.0;
   }
-  // Of a sun's light no more arrives than what it lights takes of the sphere around it, be everything as it should.
+  // Of a sun's light, only the fraction that the lit surfaces take of the sphere around it can arrive, even in a correct scene.
   const double reach = scene.objects.diameter(), share = reach > 0.0 ? std::min(1.0, unlit / (reach * reach)) : 1.0;
   if (!reflects || !(emitted > 0.0) || reflected >= 1e-6 * share * emitted) { return {}; }
   return std::string(reflected > 0.0 ? "less than a millionth" : "nothing") +

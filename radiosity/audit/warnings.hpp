@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// What a sound scene makes doubtful. It is solved all the same, by rules that are fixed, and the run says where they may not be what was
-// meant: two objects at one place (the later one is seen, raycast/scene.hpp), objects of which nothing shows, open shells (their backs are
-// black), coordinates that are known no better than surfaces must be told apart.
+// Warnings about doubtful properties of a valid scene. It is solved by fixed rules all the same, and these sentences say where the result
+// may not be what was meant: two objects at the same place (the later one is seen, raycast/scene.hpp), objects that are hidden
+// altogether, open shells (their backs are black), coordinates so far from the origin that rounding exceeds the distance at which
+// surfaces are told apart.
 
 #include <cstdint>
 #include <string>
@@ -21,14 +22,14 @@
 
 namespace radiosity {
 
-// `surfaces` before refinement: afterwards they have more edges.
+// `surfaces` must be those before refinement, which adds edges.
 [[nodiscard]] std::vector<std::string> warnings(const Scene& scene, const Frame& frame, const std::vector<Surface>& surfaces);
 
-// Objects of which nothing is exposed, those that a warning of duplicates names included.
+// Objects without any exposed area, including those named by a warning about duplicates.
 [[nodiscard]] std::vector<std::string> warnings_of_buried(const Scene& scene, const Hierarchy& hierarchy, const Exposure& exposure);
 
-// A sentence that says what to look for when surfaces reflected less than a millionth of the light of the lamps, though some surfaces
-// reflect. Empty when more was reflected, or nothing shines.
+// A sentence with advice if some surfaces can reflect but less than a millionth of the emitted light was reflected. Empty when more was
+// reflected, or nothing emits.
 [[nodiscard]] std::string warning_of_lost_light(const DiscreteScene& scene, const std::vector<Color>& radiosity);
 
 }  // namespace radiosity

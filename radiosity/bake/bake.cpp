@@ -26,7 +26,7 @@ inline BakeOutcome refused(std::vector<std::string> sentences, Failure::Kind kin
   return {std::nullopt, {kind, std::move(sentences)}};
 }
 
-// bake(), but memory may run out.
+// As bake(), except that std::bad_alloc may be thrown.
 inline BakeOutcome bake_within_memory(const PolygonView& mesh, std::span<const Material> materials, const BakeOptions& options,
                                       const Control& control) {
   std::vector<std::string> sentences;

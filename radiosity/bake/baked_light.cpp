@@ -34,7 +34,7 @@ HALFLIGHT_INLINE BakedLight::BakedLight(const Scene& scene, const Solution& solu
   sheets_.resize(sheets - first);
   const Mesh& mesh = solution.mesh;
   for (const MeshFace& face : mesh.faces) {
-    if (face.surface < first || !(solution.area[face.node] > 0.0)) { continue; }  // covered ones have no light of their own
+    if (face.surface < first || !(solution.area[face.node] > 0.0)) { continue; }  // skip: covered faces have no light of their own
     const auto begin = static_cast<std::uint32_t>(corners_.size());
     for (std::uint32_t k = 0; k < face.corner_count; ++k) {
       const MeshCorner& corner = mesh.corners[face.first_corner + k];
@@ -84,7 +84,7 @@ HALFLIGHT_INLINE std::optional<BakedLight::Found> BakedLight::nearest(const Shee
 HALFLIGHT_INLINE std::optional<Color> BakedLight::radiosity(std::size_t polygon, const glm::dvec3& point, FaceSide side) const {
   if (polygon >= polygons()) { return std::nullopt; }
   std::optional<Found> best;
-  bool best_asked = false;  // on the side that was asked for
+  bool best_asked = false;  // is `best` on the requested side?
   for (const PolygonPart& part : parts_.of(polygon)) {
     const bool asked = part.back == (side == FaceSide::back);
     if (best && best_asked && !asked) { continue; }
@@ -99,7 +99,7 @@ HALFLIGHT_INLINE std::optional<Color> BakedLight::radiosity(std::size_t polygon,
 
 namespace baking::detail {
 
-// The angle of a polygon at its corner k; of a corner without sides 0.
+// Interior angle of a polygon at its corner k, in radians; 0 if a side at this corner has no length.
 inline double angle(const PolygonView& input, std::size_t polygon, std::size_t k) {
   const std::size_t first = input.first_corner[polygon], n = input.first_corner[polygon + 1] - first;
   const auto at = [&](std::size_t i) { return input.positions[input.corners[first + i % n]]; };
@@ -147,9 +147,9 @@ HALFLIGHT_INLINE BakedColors baked_colors(const BakedLight& light, const Polygon
       }
     }
   }
-  if (!without.empty()) {  // from others at the same place
+  if (!without.empty()) {  // use the mean of other corners at the same place
     std::map<glm::dvec3, baking::detail::Mean, baking::detail::ByCoordinates> places;
-    const auto is_place = [&](std::size_t v) {  // others have no order
+    const auto is_place = [&](std::size_t v) {  // coordinates that are not finite cannot be ordered
       const glm::dvec3& p = input.positions[v];
       return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
     };

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The solved light on the polygons that a caller gave, in the caller's own numbering. The intake has repaired, merged and turned them, and
-// the solver has cut them into patches; PolygonParts (intake.hpp) lead from a polygon to the sheets that it became, whose triangles hold
-// the light.
+// Looks up the solved light on the caller's polygons, in the caller's numbering. The intake has repaired, merged and turned the polygons,
+// and the solver has cut them into patches. PolygonParts (intake.hpp) lists, for each polygon, the sheets that it became part of; the
+// triangles of these sheets hold the light.
 //
-// A polygon has a front, from which its corners run counter-clockwise, and a back. Most have light on one side alone: where the side that
-// is asked for has none, the other one answers.
+// A polygon has a front, seen from which its corners run counter-clockwise, and a back. Most polygons have light on one side only: if the
+// requested side has none, the other side is used.
 
 #include <array>
 #include <cstddef>
@@ -31,15 +31,16 @@ enum class FaceSide : unsigned char { front, back };
 class BakedLight {
  public:
   BakedLight() = default;
-  // The objects that `parts` speaks of are those of the solved scene from `first_object` on. Nothing of scene and solution is kept.
+  // `parts` numbers its objects from `first_object` of the solved scene on. Keeps no reference to scene and solution.
   BakedLight(const Scene& scene, const Solution& solution, PolygonParts parts, std::uint32_t first_object = 0);
 
-  // The radiosity B in W/m2, emission included, at a point of a polygon, in the scene's coordinates; of a point beside the polygon that at
-  // the nearest place, and where another object covers it that beside. The radiance that leaves it is B / pi. Nothing when the polygon was
-  // left out or lies hidden under another object. Cost: a walk down a small tree. May be called from many threads at once.
+  // The radiosity B in W/m2, emission included, at a point of a polygon, in scene coordinates. The value is taken at the nearest place of
+  // the polygon that has light of its own, if the point lies beside the polygon or another object covers it there. The emitted radiance
+  // is B / pi. Nothing if the polygon was left out or is hidden under another object. Cost: one descent of a small tree. Thread-safe.
   [[nodiscard]] std::optional<Color> radiosity(std::size_t polygon, const glm::dvec3& point, FaceSide side = FaceSide::front) const;
 
-  // The one sheet that shows the polygon's front; polygons with the same sheet are parts of one planar face. Nothing when it was split.
+  // The sheet that shows the polygon's front; polygons with the same sheet are parts of one planar face. Nothing if the polygon belongs
+  // to several sheets.
   [[nodiscard]] std::optional<PolygonPart> front(std::size_t polygon) const;
 
   [[nodiscard]] std::size_t polygons() const { return parts_.first.size() - 1; }
@@ -54,7 +55,7 @@ class BakedLight {
     raycast::Bvh tree;
   };
   struct Found {
-    double squared = 0.0;  // distance
+    double squared = 0.0;  // squared distance
     Color radiosity{0.0};
   };
   [[nodiscard]] std::optional<Found> nearest(const Sheet& sheet, const glm::dvec3& point) const;
@@ -65,14 +66,14 @@ class BakedLight {
   std::vector<Corner> corners_;
 };
 
-// The light at the corners of polygons, and at their vertices.
+// The radiosity at the corners of polygons and at their vertices.
 struct BakedColors {
-  std::vector<Color> corner;  // one a corner of the input: W/m2
-  std::vector<Color> vertex;  // one a position: the mean of its corners, each weighted with its angle
-  std::size_t without = 0;  // corners of polygons that were left out or are hidden: they have the colour of others at their place, or none
+  std::vector<Color> corner;  // one per corner of the input, W/m2
+  std::vector<Color> vertex;  // one per position: the mean over its corners, weighted by their angles
+  std::size_t without = 0;  // corners without light of their own (hidden or left-out polygons): the mean of others at their place, or black
 };
 
-// `input` is what the parts were made of, in the scene's coordinates.
+// `input`: the polygons from which the parts were made, in scene coordinates.
 [[nodiscard]] BakedColors baked_colors(const BakedLight& light, const PolygonView& input);
 
 }  // namespace radiosity

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// halflight.h: each function checks what it is given, calls bake.hpp, and hands values on. Its own source of the shared library, because
-// everything else is C++ already.
+// Implements halflight.h: each function checks its arguments, calls bake.hpp, and converts the results. Compiled only into the shared
+// library, because all other code is C++ already.
 #include <radiosity/bake/halflight.h>
 
 #include <algorithm>
@@ -35,7 +35,7 @@ struct halflight_job {
   radiosity::BakeOptions options;
   halflight_progress progress = nullptr;
   void* user = nullptr;
-  bool running = false;  // halflight_run has not returned
+  bool running = false;  // halflight_run has been called and has not returned
 
   std::optional<radiosity::Baked> baked;
   std::optional<radiosity::Lightmap> lightmap;
@@ -54,32 +54,33 @@ halflight_status refuse(halflight_job* job, std::string message, halflight_statu
   return status;
 }
 
-// Calls what may need memory: nothing is thrown into C when there is none. Other exceptions are those of a callback.
+// Calls `attempt`, which may allocate: std::bad_alloc is caught here and must not reach C. Any other exception comes from a
+// callback of the caller and passes through.
 template <class Attempt>
 auto unless_out_of_memory(halflight_job* job, decltype(std::declval<Attempt>()()) otherwise, const Attempt& attempt) {
   try {
     return attempt();
   } catch (const std::bad_alloc&) {
-    if (job != nullptr) { job->message = "out of memory"; }  // short enough to stand in the string itself
+    if (job != nullptr) { job->message = "out of memory"; }  // short enough for the string's internal buffer: no allocation
     return otherwise;
   }
 }
 
-// Results belong to the buffers that were run.
+// Results are valid only for the buffers with which the job was run.
 void forget_results(halflight_job& job) {
   job.baked.reset();
   job.lightmap.reset();
   job.changes.clear();
 }
 
-// From within its callback a job cannot be changed, run or destroyed.
+// True, with a message, if the job is running: it must not be changed, run again or destroyed from its own callback.
 bool is_running(halflight_job* job) {
   if (job == nullptr || !job->running) { return false; }
   job->message = "the job is running: it cannot be changed or run again from its progress callback";
   return true;
 }
 
-// While it lives; it ends, too, when a callback throws.
+// Sets `running` during its lifetime, so that it is reset also if a callback throws.
 class Running {
  public:
   explicit Running(halflight_job& job) : job_{job} { job.running = true; }
@@ -91,7 +92,7 @@ class Running {
   halflight_job& job_;
 };
 
-// The components of a list's vectors into a buffer with room for `count` of these.
+// Copies the components of the vectors to `out`, which has room for `count` vectors.
 template <class Vector>
 halflight_status copy(halflight_job* job, const std::vector<Vector>& list, const char* name, float* out, std::size_t count) {
   if (out == nullptr) { return refuse(job, std::string("there is no buffer for the ") + name); }
@@ -104,7 +105,7 @@ halflight_status copy(halflight_job* job, const std::vector<Vector>& list, const
   return HALFLIGHT_OK;
 }
 
-// What the triangles of a job are to the library.
+// The triangles of a job as polygons of the C++ interface.
 struct JobPolygons {
   explicit JobPolygons(const halflight_job& job) : indices{job.indices}, first(job.indices.size() / 3 + 1), material(first.size() - 1, 0) {
     for (std::size_t i = 0; i + 2 < job.positions.size(); i += job.stride) {

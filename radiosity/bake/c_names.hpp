@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The options and the figures of halflight.h by their names.
+// The options and figures of halflight.h, by name.
 
 #include <array>
 #include <cstdint>
@@ -13,13 +13,13 @@
 
 namespace radiosity::c_interface {
 
-// Options that are off are 0 in C.
+// C has no optional values: 0 turns these options off.
 template <class Number>
 [[nodiscard]] std::optional<Number> unless_zero(Number value) {
   return value != Number{} ? std::optional(value) : std::nullopt;
 }
 
-// An option: what it may be, and where it goes.
+// An option: its name, its permitted range, and where its value is stored.
 struct NumberOption {
   std::string_view name;
   double least, most;

@@ -22,11 +22,11 @@ namespace radiosity {
 
 namespace lightmap::detail {
 
-// What shares a chart: the polygons of one planar face.
+// The polygons of one planar face, which share a chart.
 struct Shared {
-  std::size_t first = 0;  // of the polygons
+  std::size_t first = 0;  // first of the polygons
   std::vector<glm::dvec3> corners;
-  glm::dvec3 normal{0.0}, longest{0.0};  // of the sides
+  glm::dvec3 normal{0.0}, longest{0.0};  // sum of the vector areas; longest side
 
   void add(const PolygonView& input, std::size_t p) {
     const std::size_t begin = corners.size();
@@ -42,7 +42,7 @@ struct Shared {
   }
 };
 
-// Places the charts, which come highest first, on shelves of this width; the height that they need.
+// Places the charts, sorted by decreasing height, on shelves of this width; returns the height that is needed.
 inline std::uint64_t pack(std::vector<LightmapChart>& charts, std::uint64_t width) {
   std::uint64_t x = 0, y = 0, shelf = 0;
   for (LightmapChart& chart : charts) {
@@ -58,7 +58,7 @@ inline std::uint64_t pack(std::vector<LightmapChart>& charts, std::uint64_t widt
   return y + shelf;
 }
 
-// Sizes and places of the charts with texels of this size; false when they do not fit.
+// Sizes and places the charts with texels of this size; returns false when they do not fit.
 inline bool arrange(std::vector<LightmapChart>& charts, double texel, std::uint32_t most, Lightmap& map) {
   std::uint64_t area = 0, widest = 1;
   for (LightmapChart& chart : charts) {
@@ -110,7 +110,7 @@ HALFLIGHT_INLINE Lightmap lay_out(std::vector<LightmapChart> charts, double texe
   Lightmap map;
   most = std::max(most, 64U);
   if (charts.empty() || !(texel > 0.0) || !std::isfinite(texel)) { return map; }
-  // Each doubling makes a chart smaller, down to 3 texels squared; more charts than fit even so are left out.
+  // Doubling the texel shrinks every chart, to 3 x 3 texels at least; charts that do not fit even then are left out.
   while (charts.size() > std::size_t{most / 3} * (most / 3)) { charts.pop_back(); }
   for (map.texel = texel; !lightmap::detail::arrange(charts, map.texel, most, map) && std::isfinite(map.texel); map.texel *= 2.0) {}
   map.texels.resize(std::size_t{map.width} * map.height, glm::vec3(0.0F));
@@ -126,7 +126,7 @@ HALFLIGHT_INLINE Lightmap make_lightmap(const BakedLight& light, const PolygonVi
   for (std::size_t p = 0; p < input.count() && p < light.polygons(); ++p) {
     const std::size_t first = input.first_corner[p];
     if (first >= input.corners.size() || input.corners[first] >= input.positions.size()) { continue; }
-    if (!light.radiosity(p, input.positions[input.corners[first]])) { continue; }  // a polygon with light has sound corners
+    if (!light.radiosity(p, input.positions[input.corners[first]])) { continue; }  // a polygon with light has valid corners
     face_of[p] = faces.size();
     if (const auto part = light.front(p)) {
       face_of[p] = face_of_sheet.emplace(std::pair(part->object, part->sheet), faces.size()).first->second;

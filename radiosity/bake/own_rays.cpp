@@ -26,7 +26,7 @@ namespace radiosity {
 
 namespace baking::detail {
 
-// What is known of a triangle on which a hit lies: the sheet that shows it, and where on the ray its plane lies.
+// A sheet that shows the hit triangle, and the parameter at which the ray meets the sheet's plane.
 struct FoundSheet {
   double t = 0.0;
   bool front = false;
@@ -40,7 +40,8 @@ class CasterAdapter {
     for (std::uint32_t o = 0; o < objects.size(); ++o) {
       first_plane_.push_back(planes_.size());
       const raycast::Box box = objects.object(o).bounds();
-      for (std::uint32_t sheet = 0; sheet < objects.object(o).sheet_count(); ++sheet) {  // all are flat: they were polygons
+      // All sheets are flat, because they come from polygons.
+      for (std::uint32_t sheet = 0; sheet < objects.object(o).sheet_count(); ++sheet) {
         const raycast::SurfacePoint at = objects.object(o).project(sheet, 0.5 * (box.lo + box.hi));
         planes_.push_back({at.position, at.normal});
       }
@@ -96,15 +97,15 @@ class CasterAdapter {
     packet.lanes |= 1u << i;
   }
 
-  // The part of the segment at an end that lies within the skin of the sheet on which it ends.
+  // The parameter length to cut off at this end of the segment, so that it begins a skin above the sheet on which it ends.
   [[nodiscard]] double cut(const raycast::Segment& segment, std::uint32_t owner, std::uint32_t sheet) const {
     if (owner == raycast::no_object) { return 0.0; }
     if (sheet == raycast::unknown_sheet) { return skin_ / glm::length(segment.direction); }
     return skin_ / std::abs(glm::dot(planes_[first_plane_[owner] + sheet].normal, segment.direction));
   }
 
-  // Of the sheets that have a part of the triangle one that shows the ray its front; of these the one that is nearest to the place. Nothing
-  // when the triangle was left out.
+  // Among the sheets that contain a part of the triangle, prefers one that faces the ray; among those, the one nearest to the hit.
+  // Nothing if the triangle was left out.
   [[nodiscard]] std::optional<FoundSheet> sheet_at(const raycast::Segment& segment, const TriangleHit& hit) const {
     std::optional<FoundSheet> best;
     if (hit.triangle + 1 >= parts_.first.size()) { return best; }
@@ -126,9 +127,9 @@ class CasterAdapter {
   const AnyRayCaster& caster_;
   const PolygonParts& parts_;
   const raycast::Scene& objects_;
-  double skin_;  // in the frame
+  double skin_;  // length in the frame
   Frame frame_;
-  std::vector<SheetPlane> planes_;  // of all sheets
+  std::vector<SheetPlane> planes_;  // of the sheets of all objects
   std::vector<std::size_t> first_plane_;
 };
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// A ray caster of the user's, which a renderer has anyhow, answers the rays of a bake. It knows the caller's triangles and nothing else:
+// Lets a ray caster of the caller, which a renderer has anyway, answer the rays of a bake. It needs to know the caller's triangles and
+// nothing else:
 //
 //     struct MyCaster {
 //       std::uint32_t blocked16(const radiosity::RayPacket& rays) const;                   // bit i: ray i meets a triangle in (near, far)
@@ -9,15 +10,14 @@
 //     };
 //     options.rays = my_caster;    // BakeOptions; the caster must outlive the bake
 //
-// Rays lie in the coordinates of the mesh. Both functions are called from many threads at once. Which side of a triangle is met does not
-// matter.
+// Rays are in the coordinates of the mesh. Both functions are called from many threads at once. Triangles count from both sides.
 //
-// A caster in single precision has the triangle on which a ray begins or ends a little off its true place, and would find that triangle
-// itself. So rays begin and end a skin above the surfaces on which they stand: what stands closer to a surface than that is not seen from
-// it. The skin is `precision` of the largest coordinate, plus what the intake may have moved a vertex by.
+// A caster in single precision stores a triangle slightly off its true place, so a ray that begins or ends on it might hit that same
+// triangle. So rays begin and end a small distance, the skin, above their surfaces; objects closer to a surface than that are not seen
+// from it. The skin is `precision` times the largest coordinate plus the distance by which the intake may have moved a vertex.
 //
-// No ray is cast, by anyone, where nothing can stand in between (Options::shortcuts), for the exact shadows of lamps, and where surfaces
-// coincide: there the polygons themselves decide. So a caster should stop rays at all triangles, and at nothing else.
+// No ray is cast where nothing can stand in between (Options::shortcuts), for the exact shadows of lamps, and where surfaces coincide:
+// these cases are computed from the polygons themselves. So the caster should report all triangles and nothing else.
 
 #include <concepts>
 #include <cstdint>
@@ -32,13 +32,13 @@
 
 namespace radiosity {
 
-// Its points are origin + t direction, near < t < far. The direction is not normalised.
+// The points origin + t direction with near < t < far. The direction need not have length 1.
 struct CasterRay {
   glm::dvec3 origin{0.0}, direction{0.0};
   double near = 0.0, far = 0.0;
 };
 
-// Sixteen of them; lanes without a bit take no part.
+// Sixteen rays; those whose bit in `lanes` is 0 take no part.
 struct alignas(64) RayPacket {
   double origin[3][16] = {}, direction[3][16] = {}, near[16] = {}, far[16] = {};
   std::uint32_t lanes = 0;
@@ -50,7 +50,7 @@ struct alignas(64) RayPacket {
 
 struct TriangleHit {
   double t = 0.0;
-  std::uint32_t triangle = 0;  // its number in the mesh; of a PolygonView that of the polygon
+  std::uint32_t triangle = 0;  // its index in the mesh; for a PolygonView, that of the polygon
 };
 
 template <class Caster>
@@ -59,13 +59,13 @@ concept RayCaster = requires(const Caster& caster, const RayPacket& packet, cons
   { caster.closest(ray) } -> std::convertible_to<std::optional<TriangleHit>>;
 };
 
-// Any of them, by reference.
+// Refers to any ray caster; does not own it.
 class AnyRayCaster {
  public:
   AnyRayCaster() = default;
-  // `precision`: of a point where it says that a ray meets a triangle, relative to the largest coordinate.
+  // `precision`: error of the caster's hit points, relative to the largest coordinate.
   template <RayCaster Caster>
-  AnyRayCaster(const Caster& caster, double precision = 1e-6)  // implicit, as references are
+  AnyRayCaster(const Caster& caster, double precision = 1e-6)  // implicit, like a reference
       : caster_{&caster},
         blocked16_{
             [](const void* own, const RayPacket& rays) -> std::uint32_t { return static_cast<const Caster*>(own)->blocked16(rays); }},
@@ -88,12 +88,12 @@ class AnyRayCaster {
   double precision_ = 1e-6;
 };
 
-// The caster as the solver asks it: rays of the frame become rays of the mesh, triangles become sheets of objects. `caster` and `parts`, of
-// the intake that made the objects, and these must outlive what this makes. `skin`: a length of the mesh.
+// Adapts the caster to the interface of the solver: rays are converted from the frame to the mesh, triangles to sheets of objects.
+// `caster`, `objects` and `parts` (from the intake that made the objects) must outlive the result. `skin`: a length in mesh coordinates.
 [[nodiscard]] raycast::OtherCaster caster_of(const AnyRayCaster& caster, const PolygonParts& parts, double skin,
                                              const raycast::Scene& objects, const Frame& frame);
 
-// How far from a surface rays begin and end: see above. `weld` of the intake.
+// Distance from a surface at which rays begin and end, see above. `weld`: the option of the intake.
 [[nodiscard]] double skin_of(const AnyRayCaster& caster, const PolygonView& mesh, double weld);
 
 }  // namespace radiosity

@@ -43,8 +43,8 @@ HALFLIGHT_INLINE void add_fragments(const FinalGather& light, std::uint32_t x, s
       f->place.point = {middle, glm::normalize(f->normals)};
       continue;
     }
-    // The middle of points of a curved surface lies off it: its place is where the surface is seen in that direction, next to the nearest of
-    // the points, and that point itself where the surface bends away.
+    // The mean of points on a curved surface lies off the surface. The place is the point of the surface that is seen in that direction;
+    // where the surface bends away, the nearest of the points.
     double nearest = raycast::infinity;
     const FinalGather::Place of_piece = f->place;
     for (const auto& place : seen) {
@@ -62,20 +62,20 @@ HALFLIGHT_INLINE void add_fragments(const FinalGather& light, std::uint32_t x, s
 
 namespace detail {
 
-// Where a surface fills a block, shadows are found by every second to third of its pixels in either direction.
+// Rows and columns of a filled block at which shadows are computed: every second or third pixel.
 inline constexpr std::array<std::uint32_t, 4> lattice{0, 2, 5, 7};
 inline constexpr std::array<std::uint32_t, block_side> cell_of{0, 0, 0, 1,
                                                                1, 1, 2, 2};  // of a coordinate: between lattice[c] and lattice[c + 1]
 
-// Is the shadow of a thin thing as thin as the thing? The penumbra is as wide as the lamp seems from the receiver, times the distance of
-// what is in between: blocks near that hold the thing itself and are not filled, and from a block's width on a wider lamp blurs some
-// pixels. Across a thing that lies along a tube it is the width of that which counts.
+// Is the shadow of a thin object as thin as the object? The penumbra is as wide as the apparent width of the lamp times the distance of
+// the blocker. A blocker nearer than a block's width shows in the block itself, which then is not filled; from there on a wider lamp
+// blurs the shadow over some pixels. For a tube, its width decides, because a thin object may lie parallel to it.
 HALFLIGHT_INLINE bool is_narrow(const DirectLight::Lamp& lamp, const glm::dvec3& x) {
   constexpr double seems = 0.1;
   return lamp.width < seems * glm::length(lamp.centre - x);
 }
 
-// Adds the light of lamp k of the region to the fragments `own`, all of one surface.
+// Adds the light of lamp k of the region to the fragments `own`, which are of one surface.
 HALFLIGHT_INLINE void add_lamp(LitRegion& region, std::size_t k, std::span<const std::uint32_t> own, const std::vector<Fragment>& fragments,
                                std::vector<Color>& irradiance) {
   const auto point = [&](std::uint32_t i) { return fragments[i].place.point; };
@@ -109,7 +109,7 @@ HALFLIGHT_INLINE void add_lamp(LitRegion& region, std::size_t k, std::span<const
   const bool narrow = is_narrow(region.lamp(k), point(own[0]).position);
   if (narrow && same()) {
     constexpr std::uint32_t last = block_side - 1;
-    for (const std::uint32_t w : {1u, 3u, 4u, 6u}) {  // the border, except for what has been asked
+    for (const std::uint32_t w : {1u, 3u, 4u, 6u}) {  // the border pixels that have not been computed yet
       for (const std::uint32_t i : {fragment[w][0], fragment[w][last], fragment[0][w], fragment[last][w]}) {
         const double v = visible(i);
         least = std::min(least, v);
@@ -118,7 +118,7 @@ HALFLIGHT_INLINE void add_lamp(LitRegion& region, std::size_t k, std::span<const
     }
   }
   if (same()) { return all(most <= surely ? 0.0 : 1.0); }
-  // Between four pixels that agree the share is interpolated; not where a thin shadow may pass between them.
+  // Interpolate where the four lattice pixels around agree, unless a thin shadow may pass between them.
   const double agree = narrow ? -1.0 : 0.06;
   for (std::uint32_t v = 0; v < block_side; ++v) {
     for (std::uint32_t u = 0; u < block_side; ++u) {

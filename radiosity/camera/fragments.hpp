@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// What a pixel of a gathered picture sees: its rays, sorted into pieces of surfaces that are lit once each (gather_picture.hpp).
+// Groups the rays of a pixel of a gathered picture into fragments: pieces of one surface that are lit once each (gather_picture.hpp).
 
 #include <cstdint>
 #include <optional>
@@ -16,10 +16,10 @@
 
 namespace radiosity {
 
-// What the rays of one pixel meet of one surface, facing one way.
+// What the rays of one pixel meet of one surface with one orientation.
 struct Fragment {
   std::uint32_t x = 0, y = 0;
-  float share = 0.0f;  // of the pixel
+  float share = 0.0f;  // area share of the pixel
   FinalGather::Place place;
   glm::dvec3 positions{0.0}, normals{0.0};  // sums over its rays
 };
@@ -31,7 +31,7 @@ struct PixelSize {
   [[nodiscard]] double operator()(const glm::dvec3& p) const { return angle * glm::length(p - eye); }
 };
 
-// Seen through one pixel, do these two belong together? Not where one part of a surface hides another, or on two sides of a crease.
+// Do these two places, seen through one pixel, belong to one fragment? Not if one part of a surface hides another, or across a crease.
 [[nodiscard]] bool one_piece(const FinalGather::Place& a, const FinalGather::Place& b, const PixelSize& pixel_size);
 
 // Adds the fragments of the pixel (x, y), given what each of its rays sees.
@@ -40,10 +40,11 @@ void add_fragments(const FinalGather& light, std::uint32_t x, std::uint32_t y, s
 
 inline constexpr std::uint32_t block_side = 8;  // pixels
 
-// Adds to the irradiance of the fragments `own`, all of one block and one surface, what comes from the lamps. Where the surface
-// fills the block, most pixels take their share of a lamp from their neighbours: all, where those see the whole lamp or nothing of it; else
-// where they agree. The shadow of a thin thing can pass between them if the lamp is narrow, for then it is as thin; so a narrow lamp is
-// looked for from all pixels at the border of the block, which a shadow of some length crosses, and if those differ, from every pixel.
+// Adds the irradiance from the lamps to the fragments `own`, which belong to one block and one surface. Where the surface fills the
+// block, visibility is computed for a lattice of pixels and interpolated between them, if all of these see the whole lamp or none of it,
+// or otherwise where the neighbours agree. The shadow of a thin object can pass between the lattice pixels if the lamp is narrow, because
+// then the shadow is as thin. So for a narrow lamp the pixels along the border of the block are checked, too, which any longer shadow
+// crosses; if they differ, every pixel is computed.
 void add_direct_light(const FinalGather& light, std::span<const std::uint32_t> own, const std::vector<Fragment>& fragments,
                       std::vector<Color>& irradiance);
 

@@ -28,7 +28,7 @@
 namespace radiosity {
 namespace detail {
 
-inline constexpr std::uint32_t no_surface = 0xffffffff, several_surfaces = 0xfffffffe;  // in place of the number of a surface
+inline constexpr std::uint32_t no_surface = 0xffffffff, several_surfaces = 0xfffffffe;  // stored in place of a surface number
 
 class GatherPainter {
  public:
@@ -53,7 +53,7 @@ class GatherPainter {
     four_ = {glm::dvec2{0.375, 0.125}, {0.875, 0.375}, {0.125, 0.625}, {0.625, 0.875}};
   }
 
-  // False when cancelled.
+  // Finds the fragments of all pixels. False when cancelled.
   [[nodiscard]] bool look() {
     return each_block(0.0, 0.15, [&](std::size_t b) { glance(b); }) && each_block(0.15, 0.3, [&](std::size_t b) { look_closer(b); });
   }
@@ -68,7 +68,7 @@ class GatherPainter {
  private:
   template <class Body>
   bool each_block(double from, double to, const Body& body) {
-    constexpr std::size_t batch = 512;  // between two looks at the cancel flag
+    constexpr std::size_t batch = 512;  // blocks between two checks of the cancel flag
     for (std::size_t first = 0; first < blocks_.size(); first += batch) {
       if (control_.cancelled()) { return false; }
       const std::size_t count = std::min(batch, blocks_.size() - first);
@@ -108,9 +108,9 @@ class GatherPainter {
   PixelSize pixel_size_;
   IndirectPoints points_;
   std::vector<std::vector<Fragment>> blocks_;
-  std::vector<std::vector<Color>> irradiance_;  // of the fragments of each block
-  std::vector<std::uint32_t> surfaces_;         // that all rays of a pixel meet
-  std::vector<float> lit_;                      // its irradiance, sum of channels, where that is one surface
+  std::vector<std::vector<Color>> irradiance_;  // of the fragments, by block
+  std::vector<std::uint32_t> surfaces_;         // by pixel: the surface that all of its rays meet, or no_surface or several_surfaces
+  std::vector<float> lit_;                      // by pixel: its irradiance, summed over the channels, if it shows one surface
   std::array<glm::dvec2, 16> sixteen_{};
   std::array<glm::dvec2, 4> four_{};
 };
@@ -183,10 +183,10 @@ HALFLIGHT_INLINE IndirectPoint GatherPainter::gather_at(const Fragment& fragment
 
 HALFLIGHT_INLINE bool GatherPainter::gather() {
   if (light_.direct_alone()) { return true; }
-  std::vector<std::vector<std::uint32_t>> wanted(blocks_.size());  // fragments, by block
+  std::vector<std::vector<std::uint32_t>> wanted(blocks_.size());  // fragments that need a point, by block
   std::vector<std::pair<std::uint32_t, std::uint32_t>> all;
   std::vector<IndirectPoint> found;
-  std::vector<Fragment> fragments;  // of the points
+  std::vector<Fragment> fragments;  // in which these points lie
   double done = 0.3;
   for (std::uint32_t stride = 16; stride > 0; stride /= 2, done += 0.07) {
     const auto ask = [&](std::size_t b) {
@@ -197,7 +197,7 @@ HALFLIGHT_INLINE bool GatherPainter::gather() {
         const auto& p = f.place.point;
         if (is_black(light_.material(f.place.surface).reflectance)) { continue; }
         if (points_.covered(f.x, f.y, p.position, p.normal, f.place.object)) { continue; }
-        // Not two points for neighbours; at least the smallest spheres do not depend on what is seen from them.
+        // Neighbouring pixels do not get two points: even the smallest spheres cover that distance, whatever is gathered.
         const double apart = 2.0 * pixel_size_(p.position);
         const bool near = std::any_of(wanted[b].begin(), wanted[b].end(), [&](std::uint32_t k) {
           const auto& other = blocks_[b][k].place;
@@ -230,7 +230,7 @@ HALFLIGHT_INLINE bool GatherPainter::gather() {
   return true;
 }
 
-// Interpolated between the points of indirect light.
+// Indirect irradiance, interpolated between the points.
 HALFLIGHT_INLINE Color GatherPainter::indirect_at(const Fragment& f) const {
   return points_.at(f.x, f.y, f.place.point.position, f.place.point.normal, f.place.object).value_or(Color{0.0});
 }
@@ -259,7 +259,7 @@ HALFLIGHT_INLINE void GatherPainter::light_block(std::size_t block) {
   }
 }
 
-// Does the light change by much from a pixel to a neighbour of the same surface?
+// Does the light change much from this pixel to a neighbour on the same surface?
 HALFLIGHT_INLINE bool GatherPainter::on_edge(std::uint32_t x, std::uint32_t y) const {
   const auto at = [&](std::uint32_t u, std::uint32_t v) { return std::size_t{v} * view_.size.width + u; };
   const auto differs = [&](std::size_t a, std::size_t b) {
@@ -270,7 +270,7 @@ HALFLIGHT_INLINE bool GatherPainter::on_edge(std::uint32_t x, std::uint32_t y) c
          (y > 0 && differs(own, at(x, y - 1))) || (y + 1 < view_.size.height && differs(own, at(x, y + 1)));
 }
 
-// What of the surface of a fragment is seen at these points of its pixel.
+// The places where rays through these points of the fragment's pixel meet its surface.
 HALFLIGHT_INLINE std::vector<FinalGather::Place> GatherPainter::places_of(const Fragment& fragment, std::span<const glm::dvec2> at) const {
   std::vector<FinalGather::Place> places;
   for (const glm::dvec2& p : at) {
@@ -280,7 +280,8 @@ HALFLIGHT_INLINE std::vector<FinalGather::Place> GatherPainter::places_of(const 
   return places;
 }
 
-// Where an edge of a shadow runs through a pixel, direct light is the mean over it; blocks share what may stand between.
+// Where the edge of a shadow runs through a pixel, replaces its direct light by the mean over the pixel. Pixels of a block
+// share the list of possible blockers.
 HALFLIGHT_INLINE void GatherPainter::smooth_shadows(std::size_t block) {
   const std::vector<Fragment>& fragments = blocks_[block];
   std::vector<std::uint32_t> order;
@@ -293,7 +294,7 @@ HALFLIGHT_INLINE void GatherPainter::smooth_shadows(std::size_t block) {
   std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return surface(a) < surface(b); });
   for (std::size_t begin = 0, end = 0; begin < order.size(); begin = end) {
     std::vector<FinalGather::Place> all;
-    std::vector<std::vector<FinalGather::Place>> many;  // of each pixel
+    std::vector<std::vector<FinalGather::Place>> many;  // places, by pixel
     for (; end < order.size() && surface(order[end]) == surface(order[begin]); ++end) {
       all.push_back(fragments[order[end]].place);
       many.push_back(places_of(fragments[order[end]], sixteen_));
@@ -315,7 +316,7 @@ HALFLIGHT_INLINE void GatherPainter::show(std::size_t block, const Tone& tone, P
     const std::size_t pixel = std::size_t{y} * view_.size.width + x;
     Color sum{0.0}, all{0.0};
     float share = 0.0f;
-    std::optional<Color> emission;  // of the first fragment
+    std::optional<Color> emission;  // emission of the first fragment
     for (; next != fragments.end() && next->x == x && next->y == y; ++next) {
       const Material& material = light_.material(next->place.surface);
       if (emission.value_or(material.emission) != material.emission) { picture.partly_lamp[pixel] = 1; }
@@ -325,7 +326,7 @@ HALFLIGHT_INLINE void GatherPainter::show(std::size_t block, const Tone& tone, P
       sum += static_cast<double>(next->share) * tone(b);
       all += static_cast<double>(next->share) * b;
     }
-    const bool beyond = share < 1.0f - 1e-4f;  // part of it shows nothing, which emits nothing
+    const bool beyond = share < 1.0f - 1e-4f;  // a part of the pixel shows the background, which emits nothing
     if (beyond && !radiosity::is_black(emission.value_or(Color{0.0}))) { picture.partly_lamp[pixel] = 1; }
     picture.set(pixel, sum, all);
   });

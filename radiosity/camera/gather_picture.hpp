@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The picture of the true objects in light that is gathered for it (radiosity/picture/final_gather.hpp): direct light in every pixel,
-// indirect light at points that lie apart (indirect_points.hpp).
+// Renders the true objects (not the mesh) in gathered light (radiosity/picture/final_gather.hpp): direct light at every pixel, indirect
+// light at sparse points between which it is interpolated (indirect_points.hpp).
 //
-// A pixel is looked at by 4 rays, one in each row and column of a grid; by 16, again one in each row and column, where these or those of
-// its neighbours meet several surfaces. What they meet of one surface becomes one fragment of the pixel, which is lit once. Exposure and
-// clamping are those of the mesh picture (mesh_picture.hpp). The result does not depend on the number of threads.
+// A pixel is sampled by 4 rays, one in each row and column of a grid, and by 16, again one in each row and column, if it or a neighbour
+// shows several surfaces. The hits on one surface become one fragment of the pixel, which is lit once. Exposure and clamping are those of
+// the mesh picture (mesh_picture.hpp). The result does not depend on the number of threads.
 
 #include <cstddef>
 #include <cstdint>
@@ -21,11 +21,11 @@
 
 namespace radiosity {
 
-// Where there is no object the picture is black. Reports the stage "picture". Nothing when control.cancel became true.
+// The background is black. Reports the stage "picture". Nothing when control.cancel became true.
 [[nodiscard]] std::optional<Picture> draw(const FinalGather& light, const View& view, const Tone& tone, unsigned threads = 0,
                                           const Control& control = {});
 
-// `picture` must outlive the result.
+// The picture as the audit needs it. `picture` must outlive the result.
 [[nodiscard]] inline ShownPicture audited(const Picture& picture, const View& view, const Tone& tone) {
   return {picture.width,
           picture.height,

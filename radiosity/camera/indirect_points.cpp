@@ -14,7 +14,7 @@ namespace radiosity {
 
 namespace detail {
 
-inline constexpr double least_pixels = 2.0, most_pixels = 20.0;  // radius of the sphere of a point of indirect light, by measurement
+inline constexpr double least_pixels = 2.0, most_pixels = 20.0;  // limits of the radius of a point's sphere, found by measurement
 
 }  // namespace detail
 
@@ -27,7 +27,8 @@ HALFLIGHT_INLINE IndirectPoint indirect_point(const FinalGather::Indirect& found
   point.x = pixel[0];
   point.y = pixel[1];
   const double facing = std::abs(glm::dot(point.normal, glm::normalize(point.position - eye)));
-  const double footprint = pixel_size / std::max(facing, 0.2);  // of a pixel; where it is slanted, at most five times as long
+  // Width of a pixel on the surface; limited to five times the unslanted width.
+  const double footprint = pixel_size / std::max(facing, 0.2);
   const double allowed = sphere_radius(std::max(found.nearness, found.nearness_of_light), found.nearest);
   point.radius = std::clamp(allowed, detail::least_pixels * footprint, detail::most_pixels * footprint);
   point.widest = most_fit * point.radius;

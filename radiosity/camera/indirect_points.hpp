@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Indirect light over a picture from points that lie apart (radiosity/picture/gathered_point.hpp): close together in corners and at
-// contacts, far apart on open walls. The radius of a point's sphere is held between some pixels and some more, that of its fit below three
-// times as many. Points are looked for in tiles of the picture; a pixel blends the points whose spheres hold it, with weights that fall to
-// 0 towards their borders.
+// Interpolates indirect light over a picture from sparse points (radiosity/picture/gathered_point.hpp): dense in corners and at contacts,
+// sparse on open walls. The radius of a point's sphere is limited below and above in pixels, that of its fit to three times the upper
+// limit. Points are stored by tiles of the picture. A pixel blends the points whose spheres contain it, with weights that fall to 0 at
+// their borders.
 
 #include <algorithm>
 #include <array>
@@ -25,10 +25,10 @@ namespace radiosity {
 
 struct IndirectPoint : GatheredPoint {
   std::uint32_t x = 0, y = 0;                // its pixel
-  double pixels = 0.0, widest_pixels = 0.0;  // radii of both spheres in the picture, at most
+  double pixels = 0.0, widest_pixels = 0.0;  // radii of both spheres, in pixels; upper bounds
 };
 
-// What was gathered at a place that this pixel shows; a pixel has this size there.
+// A point made from the light gathered at a place seen through this pixel. `pixel_size`: width of a pixel at the place, m.
 [[nodiscard]] IndirectPoint indirect_point(const FinalGather::Indirect& found, const std::array<std::uint32_t, 2>& pixel,
                                            const FinalGather::Place& place, const glm::dvec3& eye, double pixel_size);
 
@@ -39,16 +39,16 @@ class IndirectPoints {
   void add(const IndirectPoint& point);
   [[nodiscard]] std::size_t size() const { return points_.size(); }
 
-  // Is a place within the inner part of some point's sphere, so that no further point is needed?
+  // Is the place within the inner part of some point's sphere, so that no further point is needed?
   [[nodiscard]] bool covered(std::uint32_t x, std::uint32_t y, const glm::dvec3& position, const glm::dvec3& normal,
                              std::uint32_t object) const;
-  // Gathers once more, by gather(i), at the points where what was gathered is likely to be noise (gathered_point.hpp), once all are there.
-  // False when cancelled.
+  // Calls gather(i) again at the points whose value is likely to be noise (gathered_point.hpp). Call it once all points have been added.
+  // Returns false when cancelled.
   template <class Gather>
   [[nodiscard]] bool gather_again(unsigned threads, const Control& control, const Gather& gather);
-  // Fits point i, once all are there; others may be fitted at the same time.
+  // Fits point i, once all have been added; different points may be fitted in parallel.
   void fit(std::size_t i);
-  // Once all are fitted. Nothing where no sphere holds the place.
+  // Interpolated irradiance, once all points are fitted. Nothing if no sphere contains the place.
   [[nodiscard]] std::optional<Color> at(std::uint32_t x, std::uint32_t y, const glm::dvec3& position, const glm::dvec3& normal,
                                         std::uint32_t object) const;
 
@@ -58,16 +58,16 @@ class IndirectPoints {
   [[nodiscard]] const std::vector<std::uint32_t>& near(std::uint32_t x, std::uint32_t y) const {
     return tiles_[std::size_t{y / tile} * columns_ + x / tile];
   }
-  // The points in the widest sphere of this one, itself among them.
+  // The points in the widest sphere of this point, including itself.
   [[nodiscard]] std::vector<const GatheredPoint*> around(const IndirectPoint& point) const;
-  // Calls visit(tile) for all tiles within so many pixels of a point.
+  // Calls visit(tile) for all tiles within `pixels` of the point.
   template <class Visit>
   void each_tile(const IndirectPoint& point, double pixels, const Visit& visit) const;
 
   std::uint32_t columns_, rows_;
   std::vector<IndirectPoint> points_;
-  Tiles tiles_;     // points whose spheres may show in the tile
-  Tiles in_tiles_;  // points that lie in the tile
+  Tiles tiles_;     // by tile: points whose spheres may overlap it
+  Tiles in_tiles_;  // by tile: points that lie in it
 };
 
 template <class Gather>
@@ -79,7 +79,7 @@ bool IndirectPoints::gather_again(unsigned threads, const Control& control, cons
   for (std::size_t i = 0; i < doubtful.size(); ++i) {
     if (doubtful[i] != 0) { chosen.push_back(i); }
   }
-  constexpr std::size_t batch = 256;  // between two looks at the cancel flag
+  constexpr std::size_t batch = 256;  // points between two checks of the cancel flag
   for (std::size_t first = 0; first < chosen.size(); first += batch) {
     if (control.cancelled()) { return false; }
     const auto each = [&](std::size_t k) {

@@ -18,7 +18,7 @@ namespace radiosity {
 namespace raster {
 
 inline constexpr std::int64_t snap = 4096;  // steps between two sample points
-inline constexpr double guard = 2.0;        // clipping planes stand this many half-widths off the middle
+inline constexpr double guard = 2.0;        // the side planes are this many half-widths from the middle of the view
 inline constexpr double near_part = 1e-6;   // distance of the near plane, relative to the farthest vertex
 
 using Polygon = std::vector<glm::dvec3>;
@@ -56,7 +56,7 @@ struct Grid {
   std::int64_t y = 0;
 };
 
-// One convex piece of a triangle on the sample grid, with what shades it.
+// One convex piece of a triangle on the sample grid, with the index of its shading data.
 struct Piece {
   std::array<Grid, 3> corner;  // clockwise on the screen, whose y points down: area() > 0
   std::uint32_t triangle = 0;
@@ -186,7 +186,7 @@ class Band {
   std::int64_t rows_;
   std::vector<Sample> samples_;
   const View* view_;
-  double pixel_;  // of one sample
+  double pixel_;  // width of a sample, in pixels
 };
 
 HALFLIGHT_INLINE void Band::put(const Drawing& drawing, std::uint32_t index, std::int64_t x, std::int64_t y) {
@@ -292,7 +292,7 @@ HALFLIGHT_INLINE std::optional<Picture> draw(const Mesh& mesh, const View& view,
 
 HALFLIGHT_INLINE double automatic_exposure(const Mesh& mesh, const Scene& scene, const View& view) {
   const std::vector<InputSurface> surfaces = radiosity::surfaces(scene);
-  View small = view;  // some ten thousand samples know the percentile to less than what one sees
+  View small = view;  // some ten thousand samples give the percentile accurately enough for the eye
   const std::uint32_t shrink = std::max(1u, std::max(view.size.width, view.size.height) / 256);
   small.size = {std::max(1u, view.size.width / shrink), std::max(1u, view.size.height / shrink)};
   const raster::Drawing drawing = raster::project(mesh, small, 1);
@@ -310,7 +310,7 @@ HALFLIGHT_INLINE double automatic_exposure(const Mesh& mesh, const Scene& scene,
       if (is_black(material.reflectance)) { continue; }
       const Color radiosity = raster::color_at(triangle, band.ray(x, y));
       const double value = luminance(radiosity - material.emission);
-      // Rounding of B - E at a lamp is not light; nor does a lamp's reflected light tell how bright the scene is.
+      // B - E of a lamp is mostly rounding; and the light that a lamp reflects does not tell how bright the scene is.
       if (value > 1e-9 * luminance(radiosity) && is_black(material.emission)) { reflected.push_back(value); }
     }
   }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The triangles of the solution's mesh, Gouraud-shaded from their half-edge colours (paper 4.5), drawn by an own z-buffer. No light is
-// computed here; a picture of another view costs nothing but this.
+// Draws the triangles of the solution's mesh, Gouraud-shaded from their half-edge colours (paper 4.5), with a z-buffer. No light is
+// computed here, so a further view is cheap.
 //
 //   coverage  Every pixel has samples x samples sample points on a regular grid. Vertices are snapped to 1/4096 of their
 //             distance and edge functions are integers with a top-left rule: triangles that share an edge leave no gap
@@ -24,13 +24,13 @@
 
 namespace radiosity {
 
-// Draws the mesh; where there is none the picture is black. Nothing when `cancel` became true.
+// Draws the mesh on a black background. Nothing when `cancel` became true.
 [[nodiscard]] std::optional<Picture> draw(const Mesh& mesh, const View& view, const Tone& tone, unsigned samples = 4,
                                           const std::atomic<bool>* cancel = nullptr);
 
-// The exposure that shows the 98th percentile of the luminance of what the view sees as 0.8 in linear light: lit walls are bright, and
-// there is room above for what lies close to a lamp. Light that is emitted does not count. Where nothing is seen to reflect light, the
-// brightest emission that is seen becomes 1; where nothing shines, 1. The light is that of the mesh, so that all methods agree.
+// The exposure that maps the 98th percentile of the visible luminance to 0.8 in linear light: lit walls are bright, and there is room
+// above for places close to a lamp. Emitted light does not count. If nothing visible reflects light, the brightest visible emission is
+// mapped to 1; if nothing visible emits either, the result is 1. The light is that of the mesh, so that all methods use the same exposure.
 [[nodiscard]] double automatic_exposure(const Mesh& mesh, const Scene& scene, const View& view);
 
 }  // namespace radiosity

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// What a camera sees of a solution, pixel by pixel (mesh_picture.hpp, gather_picture.hpp).
+// A picture as arrays of pixels (made by mesh_picture.hpp and gather_picture.hpp).
 
 #include <cstddef>
 #include <cstdint>
@@ -17,9 +17,9 @@ namespace radiosity {
 struct Picture {
   std::uint32_t width = 0;
   std::uint32_t height = 0;
-  std::vector<glm::vec3> shown;       // linear values from 0 to 1, rows from the top
-  std::vector<glm::dvec3> radiosity;  // mean over each pixel, W/m2: the same before exposure and clamping, however weak the light is
-  std::vector<char> partly_lamp;      // 1 where the samples of a pixel are known to meet surfaces of different emission, else 0
+  std::vector<glm::vec3> shown;       // linear values in [0, 1] after exposure and clamping, rows from the top
+  std::vector<glm::dvec3> radiosity;  // mean over each pixel, W/m2, before exposure and clamping
+  std::vector<char> partly_lamp;      // 1 where the samples of a pixel met surfaces of different emission, else 0
 
   Picture(std::uint32_t width_, std::uint32_t height_)
       : width{width_}, height{height_}, shown(std::size_t{width_} * height_), radiosity(shown.size()), partly_lamp(shown.size(), 0) {}

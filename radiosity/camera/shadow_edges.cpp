@@ -27,7 +27,8 @@ HALFLIGHT_INLINE std::optional<Color> over_pixel(LitRegion& region, const FinalG
     double difference = 0.0;
   };
   std::vector<OfLamp> lamps(region.size());
-  std::vector<double> of_lamp(few.size() + 1), of_all(few.size() + 1);  // at few and own, sum of channels
+  // Irradiance by this lamp and by all so far, at `few` and `own`, summed over the channels.
+  std::vector<double> of_lamp(few.size() + 1), of_all(few.size() + 1);
   std::vector<Color> so_far(few.size() + 1, Color{0.0});
   for (std::size_t k = 0; k < lamps.size(); ++k) {
     for (std::size_t i = 0; i <= few.size(); ++i) {
@@ -41,7 +42,7 @@ HALFLIGHT_INLINE std::optional<Color> over_pixel(LitRegion& region, const FinalG
   std::transform(so_far.begin(), so_far.end(), of_all.begin(), sum);
   const double most = *std::max_element(of_all.begin(), of_all.end());
   const bool differ = difference(of_all) > change_at_edge * most;
-  constexpr double little = 0.02;  // of the light of all
+  constexpr double little = 0.02;  // relative to the light of all lamps
   Color all{0.0};
   for (std::size_t k = 0; k < lamps.size(); ++k) {
     if (differ && lamps[k].difference > little * most) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Direct light of pixels through which an edge of a shadow runs.
+// Direct light of pixels that the edge of a shadow crosses.
 
 #include <optional>
 #include <span>
@@ -12,11 +12,11 @@
 
 namespace radiosity {
 
-// Light that changes by more than this share from one pixel to the next, or within one: an edge of a shadow, not only a slope.
+// A relative change of light from one pixel to the next, or within a pixel, that counts as the edge of a shadow rather than a slope.
 inline constexpr double change_at_edge = 0.3;
 
-// The direct light on the pixel of `own`: the mean over `few` other places of the pixel or, if these and `own` differ, for the lamps that
-// make the difference the mean over `many`. All are places of the region; nothing when few or many are empty.
+// The direct light, averaged over the pixel of `own`: the mean over the places `few` of the pixel. If these and `own` differ, the lamps
+// that cause the difference are averaged over `many` instead. All places belong to the region. Nothing if few or many is empty.
 [[nodiscard]] std::optional<Color> over_pixel(LitRegion& region, const FinalGather::Place& own, std::span<const FinalGather::Place> few,
                                               std::span<const FinalGather::Place> many);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// From radiosity to what a screen shows.
+// Converts radiosity to the values that a screen shows.
 //
 // A diffuse surface of radiosity B (W/m2) has the radiance B / pi (W/m2/sr) in every direction. The value shown is exposure * B / pi,
 // passed through the tone curve, clamped to [0,1] and encoded by the sRGB transfer function (IEC 61966-2-1), 8 bits per channel.
@@ -20,12 +20,12 @@ namespace radiosity {
 
 using Rgb8 = std::array<std::uint8_t, 3>;
 
-// Linear light in [0,1] to the encoded value in [0,1].
+// Encodes linear light in [0, 1] to a value in [0, 1].
 [[nodiscard]] inline double srgb_encode(double linear) {
   return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
 }
 
-// And back.
+// The inverse.
 [[nodiscard]] inline double srgb_decode(double encoded) {
   return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
 }

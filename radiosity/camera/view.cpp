@@ -38,8 +38,8 @@ HALFLIGHT_INLINE glm::dvec3 View::direction(double x, double y) const {
   return r.x * right + r.y * down + forward;
 }
 
-// A unit of area at distance r takes cos(theta) / r^2 of the directions, and 1 / cos(phi)^3 = (r / z)^3 as much of the plane z = 1 at the
-// angle phi off the axis.
+// A unit of area at distance r covers the solid angle cos(theta) / r^2. On the plane z = 1, at the angle phi to the axis, a solid angle
+// covers 1 / cos(phi)^3 = (r / z)^3 times as much area.
 HALFLIGHT_INLINE double View::share(const glm::dvec3& world, const glm::dvec3& normal) const {
   const glm::dvec3 p = to_view(world);
   if (!(p.z > 0.0) || std::abs(p.x) > half_width * p.z || std::abs(p.y) > half_height() * p.z) { return 0.0; }
@@ -59,10 +59,11 @@ HALFLIGHT_INLINE View make_view(const Camera& camera, const PictureSize& size) {
 
 namespace detail {
 
-// All of the scene but for what would make the rest small in the picture:
-// - lamps far outside, as a sky behind windows, when all else is less than half as large;
+// The bounds of the scene without the things that would make the rest small in the picture:
+// - lamps far outside, such as a sky behind windows, if all else is less than half as large;
 // - flat grounds more than three times as wide as what stands on them;
-// - skies that are one object with their ground, of that width: most of their sheets shine, as those of a room with a lamp in it do not.
+// - skies that are one object with their ground, of that width. An object counts as a sky if most of its sheets emit, which is not so for a
+//   room with a lamp in it.
 HALFLIGHT_INLINE raycast::Box worth_seeing(const Scene& scene) {
   struct Thing {
     raycast::Box box;
@@ -83,7 +84,7 @@ HALFLIGHT_INLINE raycast::Box worth_seeing(const Scene& scene) {
     add(rest, box);
   }
   std::stable_sort(things.begin(), things.end(), [](const Thing& a, const Thing& b) { return a.box.diameter() < b.box.diameter(); });
-  raycast::Box inner;  // of what is not wider than the next thing
+  raycast::Box inner;  // bounds of all things smaller than the current one
   const auto around_inner = [&](const Thing& thing) {
     constexpr double thin = 1e-6, wider = 3.0;
     const double width = thing.box.diameter();
@@ -101,7 +102,7 @@ HALFLIGHT_INLINE raycast::Box worth_seeing(const Scene& scene) {
   return !things.empty() && all.diameter() > 2.0 * rest.diameter() ? rest : all;
 }
 
-// Of the rays of a coarse picture, the share that meet the front of a surface first.
+// Share of the rays of a coarse picture whose first hit is a front face.
 HALFLIGHT_INLINE double share_of_fronts(const raycast::Scene& objects, const Camera& camera) {
   constexpr std::uint32_t across = 24, down = 18;
   const View view = make_view(camera, {across, down});
@@ -129,7 +130,7 @@ HALFLIGHT_INLINE Camera automatic_camera(const Scene& scene) {
     camera.eye = bounds.centre() - forward * (radius / std::sin(vertical));
   };
   look(usual);
-  // Into a room that is open on one side one looks from there, not through the backs of its walls.
+  // A room that is open on one side is viewed through that side, not through the backs of its walls.
   const raycast::Scene objects{placed_objects(scene)};
   constexpr double clearly_more = 0.15;
   double most = detail::share_of_fronts(objects, camera) + clearly_more;

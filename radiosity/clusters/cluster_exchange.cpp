@@ -55,7 +55,7 @@ HALFLIGHT_INLINE ClusterExchange ClusterSampler::operator()(const ClusterEnd& p,
       const double r2 = glm::dot(d, d);
       const double leaves = glm::dot(x.normal, d);
       const double arrives = -glm::dot(y.normal, d);
-      const double edge_on = 1e-12 * std::sqrt(r2);  // of one plane, except for rounding
+      const double edge_on = 1e-12 * std::sqrt(r2);  // below this, both points lie in one plane up to rounding
       if (!(leaves > edge_on && arrives > edge_on)) { continue; }
       weights[i] = std::min(leaves * arrives / r2 * x.per_shown * y.per_shown, most_weight) / (std::numbers::pi * r2);
       segments.set(i, {x.position, d}, x.object, y.object, x.sheet, y.sheet);
@@ -73,7 +73,7 @@ HALFLIGHT_INLINE ClusterExchange ClusterSampler::operator()(const ClusterEnd& p,
       square += weights[i] * weights[i];
     }
     n += 16.0;
-    const double variance = square * n - arrived * arrived;  // relative to the square of the sum
+    const double variance = square * n - arrived * arrived;  // relative to the squared sum
     if (blocked == 0 ? variance < 0.25 * arrived * arrived : blocked == result.rays && blocked >= 8) { break; }
   }
   const double mean = arrived / n;
@@ -90,7 +90,7 @@ HALFLIGHT_INLINE ClusterSampler::Point ClusterSampler::draw(const ClusterEnd& en
   double rest = u * end.shown;
   while (nodes[i].is_cluster()) {
     const std::uint32_t last = nodes[i].first_child + nodes[i].child_count - 1;
-    std::uint32_t chosen = no_node;  // the last that shows anything, unless the sum reaches u before
+    std::uint32_t chosen = no_node;  // the last child that shows any area, unless the sum reaches u before
     double of_chosen = 0.0;
     for (std::uint32_t c = nodes[i].first_child; c <= last; ++c) {
       const double facing = nodes[c].is_cluster() ? 0.0 : shown(nodes[c].normal, end.towards);
@@ -102,7 +102,7 @@ HALFLIGHT_INLINE ClusterSampler::Point ClusterSampler::draw(const ClusterEnd& en
       per_shown = facing;
       if (rest < part) { break; }
     }
-    if (chosen == no_node) { return {}; }  // rounding alone
+    if (chosen == no_node) { return {}; }  // only by rounding
     i = chosen;
   }
   const Patch& patch = scene_.patches[i];
@@ -115,7 +115,7 @@ HALFLIGHT_INLINE ClusterExchange evaluate_cluster_link(const ClusterSampler& sam
                                                        std::uint32_t rounds, Random random) {
   link.exchange = 0.0f;
   const glm::dvec3 apart = hierarchy[link.q].centre - hierarchy[link.p].centre;
-  if (!(glm::length(apart) > 0.0)) { return {}; }  // a cluster and itself, of which no part sees another
+  if (!(glm::length(apart) > 0.0)) { return {}; }  // the two clusters are concentric, as a cluster and itself; no part sees another
   const glm::dvec3 d = glm::normalize(apart);
   const glm::dvec3 to_q = EndShape::stored_direction(d);
   const glm::dvec3 to_p = EndShape::stored_direction(-d);

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The exchange of a link with a cluster at one end or both, occlusion included. Pairs of points are drawn on the faces, a face with the
-// probability of its share of the area that its cluster shows to the other end; each pair counts with the kernel over that
-// probability, so the mean is an unbiased estimate of A_p F_pq over the faces that turn to each other. What hides one face behind
-// another of the same cluster is met by the rays like everything else.
+// The exchange of a link with a cluster at one or both ends, occlusion included. Pairs of points are drawn on the faces; a face is chosen
+// with probability proportional to the projected area that it shows to the other end. Each pair contributes the kernel divided by its
+// probability, so the mean is an unbiased estimate of A_p F_pq over the faces that face each other. Faces of the same cluster that hide
+// each other block rays like any other object.
 //
-// Between a face f of p and a face g of q the link then stands for G w_f w_g, with w_f the share of f in what p shows towards q
-// (direction_lattice.hpp), A_f shown_f / sum: the same weights distribute what arrives and collect what is sent (transport.hpp).
+// Between a face f of p and a face g of q, the link then stands for G w_f w_g, where w_f is the share of f in the area that p shows
+// towards q (direction_lattice.hpp), A_f shown_f / sum. The same weights distribute the received light and collect the sent light
+// (transport.hpp).
 
 #include <cstddef>
 #include <cstdint>
@@ -24,45 +25,46 @@
 
 namespace radiosity {
 
-// One end of a cluster link: a cluster, or a patch, which shows its area by the cosine alone.
+// One end of a cluster link: a cluster or a patch.
 struct ClusterEnd {
   std::uint32_t node = no_node;
   Aim towards;         // the other end
-  double shown = 0.0;  // area in that direction; of a patch, its area
+  double shown = 0.0;  // projected area in that direction, m2; for a patch, its area
 };
 
 struct ClusterExchange {
   double exchange = 0.0;
-  double fraction = 1.0;  // of the light that is not blocked
-  double spread = 0.0;    // standard deviation of one sample of the exchange over its mean
+  double fraction = 1.0;  // share of the light that is not blocked
+  double spread = 0.0;    // standard deviation of one sample of the exchange, relative to its mean
   std::uint64_t rays = 0;
 };
 
 class ClusterSampler {
  public:
-  // The references must outlive the sampler; the hierarchy may grow. Without `exposure` everything counts as exposed.
+  // The references must outlive the sampler; the hierarchy may grow. Without `exposure` all area counts as exposed.
   ClusterSampler(const SceneView& scene, const Exposure* exposure, const ShownAreas& shown)
       : scene_{scene}, exposure_{exposure}, shown_{&shown} {}
 
-  // The end `node` of a link whose other end lies in `direction`, of any length but 0.
+  // The end `node` of a link whose other end lies in `direction`, a vector of any length but 0.
   [[nodiscard]] ClusterEnd end(std::uint32_t node, const glm::dvec3& direction) const;
 
-  // Rounds of 16 pairs of points: one when all are clear or all are blocked, and count about the same, else `rounds`.
+  // Draws rounds of 16 pairs of points: a single round if all pairs are clear or all are blocked and their values vary little,
+  // otherwise `rounds`.
   [[nodiscard]] ClusterExchange operator()(const ClusterEnd& p, const ClusterEnd& q, std::uint32_t rounds, Random random) const;
 
  private:
   struct Point {
     glm::dvec3 position{0.0};
     glm::dvec3 normal{0.0};
-    double per_shown = 1.0;  // area of its face over what that shows
+    double per_shown = 1.0;  // area of its face divided by the projected area of the face
     std::uint32_t object = 0, sheet = 0;
   };
-  // A face that is nearly edge on from the centre is drawn rarely and would count for very much: cut off.
+  // Upper bound of a sample's weight: a face that is nearly edge-on seen from the centre is drawn rarely and would count very much.
   static constexpr double most_weight = 4.0;
 
   [[nodiscard]] double area(std::size_t i) const { return exposure_ != nullptr ? exposure_->area[i] : scene_.hierarchy[i].area; }
 
-  // `u`, uniform in [0, 1), chooses the face.
+  // Draws a point; `u`, uniform in [0, 1), chooses the face.
   [[nodiscard]] Point draw(const ClusterEnd& end, double u, Random& random) const;
 
   SceneView scene_;
@@ -70,7 +72,7 @@ class ClusterSampler {
   const ShownAreas* shown_;
 };
 
-// Sets the exchange and the directions of a link with a cluster at one end or both.
+// Sets the exchange and the directions of a link with a cluster at one or both ends.
 ClusterExchange evaluate_cluster_link(const ClusterSampler& sampler, const Hierarchy& hierarchy, Link& link, std::uint32_t rounds,
                                       Random random);
 

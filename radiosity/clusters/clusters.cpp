@@ -46,7 +46,7 @@ HALFLIGHT_INLINE std::vector<std::uint32_t> children_of(const Grouping& tree, st
   }
 }
 
-// Items below every group and item. Members come before their groups.
+// The number of items below every item and group. Members come before their groups.
 HALFLIGHT_INLINE std::vector<std::uint32_t> sizes_of(const Grouping& tree) {
   std::vector<std::uint32_t> sizes(tree.items, 1);
   for (const std::vector<std::uint32_t>& members : tree.groups) {
@@ -78,7 +78,7 @@ HALFLIGHT_INLINE Grouping group_boxes(const std::vector<raycast::Box>& boxes) {
   Grouping result{static_cast<std::uint32_t>(boxes.size()), {}, {}};
   const auto& nodes = bvh.nodes();
   std::vector<std::uint32_t> number(nodes.size());
-  for (std::size_t i = nodes.size(); i-- > 0;) {  // children lie behind their parents
+  for (std::size_t i = nodes.size(); i-- > 0;) {  // children come after their parents
     std::vector<std::uint32_t> members;
     if (nodes[i].count == 0) {
       members = {number[nodes[i].first], number[nodes[i].first + 1]};
@@ -93,21 +93,22 @@ HALFLIGHT_INLINE Grouping group_boxes(const std::vector<raycast::Box>& boxes) {
   return result;
 }
 
-// Writes the nodes of a tree that is given by the faces and by groups of faces and groups.
+// Writes the nodes of a tree given by the faces and by groups of faces and groups.
 class ClusterWriter {
  public:
   ClusterWriter(std::vector<Surface>& surfaces, Hierarchy faces) : surfaces_{&surfaces}, faces_{std::move(faces)} {}
 
-  // Numbers below the count of the faces are faces; others come from group().
+  // Adds a group and returns its number. Numbers below the count of faces denote faces, others groups.
   std::uint32_t group(std::vector<std::uint32_t> members) {
     groups_.push_back(std::move(members));
     return static_cast<std::uint32_t>(faces_.size() + groups_.size() - 1);
   }
 
-  // The group of a grouping's items, which are `numbers`, without what flattening leaves out. Returns the number of its top.
+  // Adds the groups below `top` of a grouping whose items are the faces `numbers`, except those removed by flattening. Returns
+  // the number of the top group.
   std::uint32_t enter(const Grouping& tree, std::uint32_t top, const std::vector<std::uint32_t>& numbers) {
     const std::vector<std::uint32_t> sizes = sizes_of(tree);
-    std::vector<std::uint32_t> order{top};  // groups that stay, parents first
+    std::vector<std::uint32_t> order{top};  // groups that are kept, parents first
     std::vector<std::vector<std::uint32_t>> children;
     std::vector<std::uint32_t> number_of(sizes.size());
     if (!tree.is_group(top)) { return numbers[top]; }
@@ -124,10 +125,10 @@ class ClusterWriter {
     return number_of[top];
   }
 
-  // All faces must be tops, or below them.
+  // Writes the nodes. Every face must be one of the tops or below one.
   [[nodiscard]] Hierarchy write(const std::vector<std::uint32_t>& tops) {
     Hierarchy hierarchy(faces_.get_allocator());
-    std::vector<std::uint32_t> number{tops};  // of each node
+    std::vector<std::uint32_t> number{tops};  // face or group of each node
     for (const std::uint32_t top : tops) { hierarchy.push_back(node_of(top, no_node)); }
     for (std::uint32_t i = 0; i < hierarchy.size(); ++i) {
       if (number[i] < faces_.size()) { continue; }
@@ -140,7 +141,7 @@ class ClusterWriter {
         number.push_back(m);
       }
     }
-    // The convex parts of input faces come after all that is above them.
+    // The convex parts of input faces come after all nodes above them.
     const auto above = static_cast<std::uint32_t>(hierarchy.size());
     for (std::uint32_t i = 0; i < above; ++i) {
       if (hierarchy[i].is_cluster() || hierarchy[i].leaf()) { continue; }
@@ -165,7 +166,7 @@ class ClusterWriter {
     node.parent = parent;
     return node;
   }
-  // Area, sphere and common owner of the children.
+  // Sets area, bounding sphere and common owner from the children.
   static void surround(const Hierarchy& hierarchy, Node& node) {
     const std::uint32_t end = node.first_child + node.child_count;
     node.surface = hierarchy[node.first_child].surface;
@@ -197,7 +198,7 @@ class ClusterWriter {
 HALFLIGHT_INLINE Hierarchy make_clusters(std::vector<Surface>& surfaces, const Hierarchy& roots) {
   detail::ClusterWriter writer{surfaces, roots};
   std::vector<std::uint32_t> under_root;
-  std::vector<std::uint32_t> parts;  // of objects that are no rooms
+  std::vector<std::uint32_t> parts;  // objects that are not rooms
   std::vector<raycast::Box> boxes;   // their bounds
   std::uint32_t first = 0;
   for (std::uint32_t o = 0; o < surfaces.size(); ++o) {
@@ -239,7 +240,7 @@ HALFLIGHT_INLINE Hierarchy make_clusters(std::vector<Surface>& surfaces, const H
 HALFLIGHT_INLINE Hierarchy make_lamp_clusters(std::vector<Surface>& surfaces, const Hierarchy& roots, const std::vector<double>& exitance) {
   detail::ClusterWriter writer{surfaces, roots};
   std::vector<std::uint32_t> tops;
-  std::map<int, std::vector<std::uint32_t>, std::greater<>> lamps;  // by brightness
+  std::map<int, std::vector<std::uint32_t>, std::greater<>> lamps;  // lamps, by exponent of their exitance, brightest first
   for (std::uint32_t i = 0; i < roots.size(); ++i) {
     if (roots[i].parent != no_node) { continue; }
     const double e = exitance[roots[i].surface];

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The hierarchy upwards: one tree above all input faces, so that nobody has to look at all pairs of them (the paper's O(k^2) initial
-// linking). The link of its root with itself stands for all of the scene, and refinement begins there (Smits, Arvo and Greenberg 1994;
-// Sillion 1995).
+// Extends the hierarchy upwards to one tree above all input faces, so that not all pairs of them need to be compared (the paper's O(k^2)
+// initial linking). A link of the root with itself represents the whole scene, and refinement begins there (Smits, Arvo and Greenberg
+// 1994; Sillion 1995).
 //
 //   inside an object   clusters of faces over the dual graph of its BRep (face_clusters.hpp)
 //   above the objects  the groups of a bounding volume hierarchy over their bounds
@@ -28,30 +28,31 @@ namespace radiosity {
 
 namespace detail {
 
-// Below `top`, groups of the binary tree that become children of one cluster.
+// The groups and items below `top` in the binary tree that become children of one cluster. `sizes`: number of items below each.
 std::vector<std::uint32_t> children_of(const Grouping& tree, std::uint32_t top, const std::vector<std::uint32_t>& sizes);
 
-// Bounds of every item, the roots with these numbers, and group.
+// Bounds of every item (the roots with these numbers) and of every group.
 std::vector<raycast::Box> bounds_of(const Grouping& tree, const Hierarchy& roots, const std::vector<std::uint32_t>& numbers);
 
 }  // namespace detail
 
-// Puts clusters above the roots that make_roots() gave. The faces of the surfaces know their new nodes afterwards. Requires two roots.
+// Inserts clusters above the roots made by make_roots(), of which there must be at least two. Updates the node numbers stored at the
+// faces of the surfaces.
 [[nodiscard]] Hierarchy make_clusters(std::vector<Surface>& surfaces, const Hierarchy& roots);
 
-// Puts clusters above the roots that shine alone: their light goes by links, that of the others does not (rays/). All other roots come
-// first and stay roots. `exitance`: of each input surface; 0 where it counts as none. One tree holds lamps whose exitances differ by a
-// factor of 4 at most.
+// Inserts clusters only above emitting roots, because their light is carried by links and all other light by stored rays (rays/). All
+// other roots come first and stay roots. `exitance`: of each input surface; 0 if it does not count as a lamp. Lamps in the same tree
+// differ in exitance by at most a factor of 4.
 [[nodiscard]] Hierarchy make_lamp_clusters(std::vector<Surface>& surfaces, const Hierarchy& roots, const std::vector<double>& exitance);
 
-// How much area each cluster shows in each direction of the lattice.
+// The projected area of each cluster in each direction of the lattice.
 class ShownAreas {
  public:
   ShownAreas() = default;
-  // `area`: of each node, the part that counts.
+  // `area(node)`: the area of a node that counts.
   template <class Area>
   ShownAreas(const Hierarchy& hierarchy, const Area& area) {
-    std::size_t end = 0;  // of clusters and input faces
+    std::size_t end = 0;  // end of the clusters and input faces
     std::size_t clusters = 0;
     for (; end < hierarchy.size() && (hierarchy[end].is_cluster() || is_input_face(hierarchy, end)); ++end) {
       clusters += hierarchy[end].is_cluster() ? 1 : 0;
@@ -69,7 +70,7 @@ class ShownAreas {
     }
   }
 
-  // Of a cluster, for all directions.
+  // The projected areas of a cluster in all directions.
   [[nodiscard]] const double* of(const Node& cluster) const { return &areas_[cluster.cluster * direction_count]; }
   [[nodiscard]] double of(const Node& cluster, const Aim& towards) const;
 

@@ -28,12 +28,12 @@ namespace radiosity {
 
 namespace detail {
 
-// The dual graph of a boundary while its edges are contracted. Numbers are those of a Grouping.
+// The dual graph of a boundary during contraction. Numbers are those of the Grouping.
 class FaceContraction {
  public:
   FaceContraction(const Surface& surface, const Hierarchy& roots, const std::vector<std::uint32_t>& numbers)
       : items_{static_cast<std::uint32_t>(numbers.size())}, clusters_(items_), up_(items_) {
-    std::vector<std::uint32_t> item_of(roots.size(), no_node);  // of the roots, and of the parts of those that have parts
+    std::vector<std::uint32_t> item_of(roots.size(), no_node);  // item of each root and of each convex part of a root
     for (std::uint32_t i = 0; i < items_; ++i) {
       const Node& node = roots[numbers[i]];
       item_of[numbers[i]] = i;
@@ -45,7 +45,7 @@ class FaceContraction {
     find_borders(surface.brep, item_of);
   }
 
-  // Contracts until nothing has neighbours any more.
+  // Contracts until no cluster has neighbours left.
   [[nodiscard]] Grouping contract() {
     for (std::uint32_t i = 0; i < items_; ++i) {
       tidy(i);
@@ -57,7 +57,7 @@ class FaceContraction {
     while (!queue_.empty()) {
       const auto [cost, a, b] = queue_.top();
       queue_.pop();
-      if (!clusters_[a].live || !clusters_[b].live) { continue; }  // merged since; the cluster that holds it has been offered again
+      if (!clusters_[a].live || !clusters_[b].live) { continue; }  // stale: one has been merged, and its new cluster has been offered again
       const std::uint32_t merged = merge(a, b);
       for (const auto& [neighbour, length] : clusters_[merged].borders) { offer(merged, neighbour, length); }
       result.groups.push_back({a, b});
@@ -73,7 +73,7 @@ class FaceContraction {
     glm::dvec3 vector_area{0.0};
     double area = 0.0, perimeter = 0.0;
     bool live = true;
-    std::vector<std::pair<std::uint32_t, double>> borders;  // neighbours, of which some have been merged since, and common lengths
+    std::vector<std::pair<std::uint32_t, double>> borders;  // neighbours (some of them merged since) and lengths of the common border
   };
   struct Contraction {
     double cost = 0.0;
@@ -89,20 +89,20 @@ class FaceContraction {
         const double length = glm::length(brep.data(brep.target(h)).position - brep.data(brep.vertex(h)).position);
         const SurfaceFace& beyond = brep.data(brep.face(twin(h)));
         const std::uint32_t other = beyond.sheet == brep::no_sheet ? no_node : item_of[beyond.node];
-        if (other == own) { continue; }  // between convex parts of one input face
+        if (other == own) { continue; }  // an edge between convex parts of one input face
         clusters_[own].perimeter += length;
         if (other != no_node) { clusters_[own].borders.push_back({other, length}); }
       }
     }
   }
 
-  // The cluster that holds i now.
+  // The cluster that contains i now.
   [[nodiscard]] std::uint32_t holder(std::uint32_t i) {
     while (up_[i] != i) { i = up_[i] = up_[up_[i]]; }
     return i;
   }
 
-  // Replaces neighbours that were merged by the clusters that hold them, each once.
+  // Replaces merged neighbours by the clusters that contain them, and joins duplicates.
   void tidy(std::uint32_t i) {
     auto& borders = clusters_[i].borders;
     for (auto& [neighbour, length] : borders) { neighbour = holder(neighbour); }
@@ -128,7 +128,7 @@ class FaceContraction {
     queue_.push({bent + drawn_out / 16.0, std::min(a, b), std::max(a, b)});
   }
 
-  // Returns the number of the cluster of both.
+  // Merges two clusters; returns the number of the new one.
   std::uint32_t merge(std::uint32_t a, std::uint32_t b) {
     const auto merged = static_cast<std::uint32_t>(clusters_.size());
     Cluster both;
@@ -153,7 +153,7 @@ class FaceContraction {
 
   std::uint32_t items_;
   std::vector<Cluster> clusters_;
-  std::vector<std::uint32_t> up_;  // towards the cluster that holds it now
+  std::vector<std::uint32_t> up_;  // union-find links to the cluster that contains each one
   std::priority_queue<Contraction, std::vector<Contraction>, std::greater<>> queue_;
 };
 

@@ -32,7 +32,7 @@ HALFLIGHT_INLINE LampExchange::LampExchange(const SceneView& scene, const Exposu
   const Hierarchy& nodes = scene.hierarchy;
   first_.push_back(0);
   std::vector<std::uint32_t> faces, open;
-  for (std::uint32_t i = 0; i < nodes.size(); ++i) {  // clusters are numbered in their order
+  for (std::uint32_t i = 0; i < nodes.size(); ++i) {  // in the order of their numbers
     if (!nodes[i].is_cluster()) { continue; }
     faces.clear();
     open.assign(1, i);
@@ -74,7 +74,7 @@ HALFLIGHT_INLINE void LampExchange::add_points(const std::vector<std::uint32_t>&
   }
   double until = 0.0;
   std::size_t next = 0;
-  for (const std::uint32_t f : faces) {  // neighbours in the tree are neighbours in space
+  for (const std::uint32_t f : faces) {  // order of the tree: consecutive faces are near each other
     until += area(f);
     for (; next < most_points && (static_cast<double>(next) + 0.5) * all < until * most_points; ++next) { add(f, all / most_points); }
   }
@@ -108,8 +108,8 @@ HALFLIGHT_INLINE LampExchange::Result LampExchange::operator()(std::uint32_t lam
   const Patch& patch = scene_.patches[to];
   const std::span<const Point> points = points_of(lamp);
   if (!(patch.area > 0.0) || !(area(to) > 0.0)) { return result; }
-  std::vector<double> until(points.size(), 0.0);  // what the points send, summed up
-  std::vector<double> light;                      // at the Gauss points
+  std::vector<double> until(points.size(), 0.0);  // unoccluded light of each point; later its cumulative sum
+  std::vector<double> light;                      // at the Gauss points of the patch
   light.reserve(patch.rule2.size());
   glm::dvec3 moment{0.0};
   for (const QuadraturePoint& x : patch.rule2) {
@@ -127,7 +127,7 @@ HALFLIGHT_INLINE LampExchange::Result LampExchange::operator()(std::uint32_t lam
   result.slope = patch.inverse_inertia * (moment / result.sent);
   double lowest = 0.0;
   for (const glm::dvec3& x : patch.contour) { lowest = std::min(lowest, glm::dot(result.slope, x - patch.centroid)); }
-  if (lowest < -1.0) { result.slope /= -lowest; }  // what arrives is positive
+  if (lowest < -1.0) { result.slope /= -lowest; }  // limit the gradient so that the light stays positive
   const double mean = result.sent / patch.area;
   for (std::size_t i = 0; i < light.size(); ++i) {
     const double linear = glm::dot(result.slope, patch.rule2[i].position - patch.centroid);
@@ -200,7 +200,7 @@ HALFLIGHT_INLINE LampExchange::Result LampExchange::evaluate(Link& link, std::ui
   const Result result = (*this)(lamp, to, rounds, random);
   link.exchange = static_cast<float>(result.sent * result.fraction);
   if (!(link.exchange > 0.0f)) { return result; }
-  // Towards the middle of a patch close by a lamp may show next to nothing: then that way counts on which the light travels.
+  // A cluster may show next to no area towards the centre of a patch close by; then the mean direction of the light is used instead.
   constexpr double least_shown = 1e-3;
   glm::dvec3 direction = EndShape::stored_direction(glm::normalize(nodes[to].centre - nodes[lamp].centre));
   if (!(shown_->of(nodes[lamp], aim(direction)) > least_shown * area(lamp))) { direction = EndShape::stored_direction(way(lamp, to)); }
@@ -211,7 +211,8 @@ HALFLIGHT_INLINE LampExchange::Result LampExchange::evaluate(Link& link, std::ui
     link.exchange = 0.0f;
     return result;
   }
-  // The stored shape is rounded, by up to .4 % and alike for all patches in one direction: what it makes too little is added here.
+  // The stored shape is rounded by up to 0.4 %, equally for all patches in one direction; the exchange is divided by the rounded value to
+  // compensate.
   link.exchange = static_cast<float>(result.sent * result.fraction / stored);
   (p_shines ? link.shape_p : link.shape_q) = shape;
   (p_shines ? link.shape_q : link.shape_p) = EndShape::of_patch(glm::vec3{result.slope});

@@ -42,17 +42,18 @@ namespace radiosity {
 
 namespace detail {
 
-// How far facets may be off a curved surface, to the object's diameter; and those of a mesh that stands in for an object.
+// Largest distance of facets from a curved surface, relative to the object's diameter; below, the same for stand-in meshes.
 inline constexpr double facet_tolerance = 0.002;
 inline constexpr double stand_in_tolerance = 0.0004;
 inline constexpr std::size_t samples_of_lamp = 256;
-// Of a large lamp, of which one may see little; at most of so many, the brightest ones. The side of its area, to the scene's diameter:
-// where smaller ones are partly hidden is seen as the edge of a shadow, and needs no more.
+// A large lamp gets fine samples, because a point may see only a small part of it; at most most_fine lamps, the brightest ones.
+// large_lamp: square root of its area, relative to the scene's diameter. The partial occlusion of a smaller lamp shows only at the edge
+// of a shadow.
 inline constexpr double large_lamp = 0.25;
 inline constexpr std::size_t fine_samples = 4096;
 inline constexpr std::size_t most_fine = 4;
 
-// A rectangle around points of a plane with this normal.
+// A rectangle around the facets, in a plane with this normal.
 [[nodiscard]] HALFLIGHT_INLINE std::array<glm::dvec3, 4> rectangle_around(const Facets& facets, const glm::dvec3& n) {
   const glm::dvec3 origin = facets.facets[0].contour[0];
   const glm::dvec3 u = glm::normalize(facets.facets[0].contour[1] - origin);
@@ -78,7 +79,8 @@ inline constexpr std::size_t most_fine = 4;
   return in_front > 0.5 * total;
 }
 
-// Does no corner of a closed body lie more than `tolerance` (a length) in front of one of its facets? Not asked of bodies of many facets.
+// Does no corner of a closed body lie more than `tolerance` (a length) in front of one of its facets? False for bodies of more than
+// `most` facets, which are not checked.
 [[nodiscard]] HALFLIGHT_INLINE bool convex_within(const Facets& facets, double tolerance) {
   constexpr std::size_t most = 1000;
   if (facets.facets.size() > most) { return false; }
@@ -165,7 +167,7 @@ HALFLIGHT_INLINE DirectLight::DirectLight(const raycast::Scene& objects, const s
   for (std::uint32_t o = 0; o < objects.size(); ++o) { slack_ = std::max(slack_, 2.0 * objects.object(o).slack()); }
   std::vector<Candidate> candidates;
   double total = 0.0;
-  raycast::Box dark;  // what does not shine
+  raycast::Box dark;  // bounds of the surfaces that do not emit
   for (std::uint32_t s = 0; s < surfaces.size(); ++s) {
     std::vector<double> area(surfaces[s].object->sheet_count(), 0.0);
     for (const brep::FaceId f : brep::faces(surfaces[s].brep)) {
@@ -222,7 +224,8 @@ HALFLIGHT_INLINE DirectLight::DirectLight(const raycast::Scene& objects, const s
 }
 
 HALFLIGHT_INLINE glm::dvec3 DirectLight::lifted(std::uint32_t o, const glm::dvec3& x, const glm::dvec3& n) const {
-  constexpr std::uint32_t most_sheets = 64;  // of more, each of which would be asked at each point, none is
+  // Objects with more sheets are skipped, because each sheet would be projected to for each point.
+  constexpr std::uint32_t most_sheets = 64;
   const double lift = bodies_[o].lift;
   if (!(lift > 0.0)) { return x; }
   glm::dvec3 above = x + lift * n;
@@ -231,7 +234,7 @@ HALFLIGHT_INLINE glm::dvec3 DirectLight::lifted(std::uint32_t o, const glm::dvec
     const raycast::SurfacePoint beside = true_objects_->object(o).project(sheet, x);
     const glm::dvec3 off = x - beside.position;
     const double height = glm::dot(off, beside.normal);
-    constexpr double same = 1.0 - 1e-6;  // of normals: its own sheet, or one that goes on smoothly
+    constexpr double same = 1.0 - 1e-6;  // of the normals: the point's own sheet, or one that continues it smoothly
     if (glm::dot(off, off) < lift * lift && height >= -1e-3 * lift && glm::dot(n, beside.normal) < same) {
       above += (lift - height) * beside.normal;
     }
@@ -242,7 +245,7 @@ HALFLIGHT_INLINE glm::dvec3 DirectLight::lifted(std::uint32_t o, const glm::dvec
 HALFLIGHT_INLINE std::vector<DirectLight::Candidate> DirectLight::join_alike(const std::vector<Candidate>& singles,
                                                                              const raycast::Scene& objects, std::uint32_t most) {
   std::vector<Candidate> joined;
-  // Flat sheets that shine alike, of objects that have more than `few` of them; the candidates come object by object.
+  // Joins flat sheets of equal exitance, for objects that have more than `few` of them. The candidates are sorted by object.
   const auto join_sheets = [&](std::size_t few) {
     joined.clear();
     for (std::size_t first = 0, last = 0; first < singles.size(); first = last) {
@@ -261,12 +264,12 @@ HALFLIGHT_INLINE std::vector<DirectLight::Candidate> DirectLight::join_alike(con
       }
     }
   };
-  // The walls of a sky are lamps of their own as long as there is room for them: one lamp of all would be all around its middle.
+  // The walls of a sky stay separate lamps as long as there is room for them, because a single lamp would surround its own centre.
   constexpr std::size_t few_sheets = 8;
   join_sheets(few_sheets);
   if (joined.size() > most) { join_sheets(1); }
   if (joined.size() <= most) { return joined; }
-  // Objects that shine alike, halved by place into groups of about the same number.
+  // Joins objects of equal exitance into groups, halved by position until each has at most `of_one` members.
   const auto before = [](const Color& a, const Color& b) { return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z; };
   std::stable_sort(joined.begin(), joined.end(), [&](const auto& a, const auto& b) { return before(a.exitance, b.exitance); });
   const std::size_t of_one = (2 * joined.size() + most - 1) / most;
@@ -301,7 +304,7 @@ HALFLIGHT_INLINE void DirectLight::take_bodies(const std::vector<Surface>& surfa
   constexpr std::size_t most_facets = 200'000, most_of_one = 4096;
   std::size_t facets = 0;
   std::vector<raycast::PlacedObject> objects, second_halves;
-  std::vector<std::uint32_t> copies;  // objects that are left out (raycast::Scene::leave_out)
+  std::vector<std::uint32_t> copies;  // duplicate objects that the scene leaves out (raycast::Scene::leave_out)
   for (std::uint32_t o = 0; o < objects_->size(); ++o) {
     const raycast::PlacedObject& object = objects_->object(o);
     Body& body = bodies_[o];
@@ -318,7 +321,8 @@ HALFLIGHT_INLINE void DirectLight::take_bodies(const std::vector<Surface>& surfa
     body.bounds = object.bounds();
     if (body.exact) {
       if (radiating_faces(surfaces[o]) <= most_of_one) { body.facets = facets_of(surfaces[o]); }
-      // The corners of round things are mostly rounded: then these are not quite convex, and so many faces would cost far more.
+      // Corners in files are mostly rounded, so round bodies are not quite convex; treating their many faces one by one would cost far
+      // more.
       if (body.closed && !body.convex && !object.inside() && !body.facets.empty()) {
         body.convex = detail::convex_within(body.facets, detail::stand_in_tolerance * object.bounds().diameter());
       }

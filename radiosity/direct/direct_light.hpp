@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The lamps of a scene, for direct light at points (LitRegion, lit_region.hpp), and how each object is taken out of their light.
+// The lamps of a scene for direct light at points (LitRegion, lit_region.hpp), and the way in which each object is treated as a blocker.
 //
-// A lamp is one sheet of one object that emits, or, where such sheets are many and that is asked for, all that shine alike of one object
-// or of objects near each other: a bulb of a thousand triangles, a row of candles. Without anything in between, the form factor from a
-// point to a lamp is the contour integral over the lamp's outline (facets.hpp): exact for flat lamps; a curved one is a polyhedron of the
-// same area, its outline off by at most 0.2 % of its diameter.
+// A lamp is one emitting sheet of one object. If there are many such sheets and LampLimits::bodies is set, all sheets of equal exitance
+// of one object, or of neighbouring objects, are joined to one lamp: a bulb of a thousand triangles, a row of candles. Without blockers,
+// the form factor from a point to a lamp is the contour integral over the lamp's outline (facets.hpp). This is exact for flat lamps; a
+// curved lamp is replaced by a polyhedron of the same area whose outline is off by at most 0.2 % of its diameter.
 
 #include <array>
 #include <cstddef>
@@ -30,69 +30,70 @@ namespace radiosity {
 
 namespace detail {
 
-// Heights below this count as none, in a scene of size 1 to 2: a thousandth of what a picture or a leaf could tell, far above rounding.
+// Heights below this count as zero, in a scene of size 1 to 2: a thousandth of what is visible in a picture or on a leaf, far above
+// rounding.
 inline constexpr double least_slack = 1e-9;
 
 }  // namespace detail
 
 struct LampLimits {
-  // The strongest sheets are taken, up to this number; those that surround their middle (a bright dome) up to this share of the scene's
-  // area: what shines all around a point is not met better one by one.
+  // The strongest sheets become lamps, up to this number. Lamps that surround their own centre (a bright dome) are taken only up to this
+  // share of the scene's area, because light from all sides is not computed better lamp by lamp.
   std::uint32_t most = 64;
   double most_surrounding = 0.1;
-  // Where there are more sheets than that: are those that shine alike taken together?
+  // If there are more emitting sheets than `most`: are sheets of equal exitance joined to one lamp?
   bool bodies = false;
 };
 
 class DirectLight {
  public:
   DirectLight() = default;
-  // `surfaces`: the unrefined boundaries of the objects of the scene, one each, needed no more after this; `emission`: exitance of each
-  // input surface.
+  // `surfaces`: the unrefined boundaries of the objects, one each, which may be freed after this call; `emission`: exitance of each input
+  // surface.
   DirectLight(const raycast::Scene& objects, const std::vector<Surface>& surfaces, const std::vector<Color>& emission,
               const LampLimits& limits = {});
 
   struct Lamp {
-    std::uint32_t surface = 0, object = 0;  // of the input; of several surfaces the first; no_object for several objects
+    std::uint32_t surface = 0, object = 0;  // surface: the first input surface; object: no_object if there are several objects
     Color exitance{0.0};
     Facets facets;
-    std::vector<std::uint32_t> object_of;  // of each facet
-    bool flat = false;                     // all facets lie in one plane
-    double area = 0.0;                     // of the true surface
-    double correction = 1.0;               // that over the area of the facets
-    glm::dvec3 centre{0.0};                // of a sphere around it
+    std::vector<std::uint32_t> object_of;  // object of each facet
+    bool flat = false;                     // do all facets lie in one plane?
+    double area = 0.0;                     // area of the true surface
+    double correction = 1.0;               // true area divided by the area of the facets
+    glm::dvec3 centre{0.0};                // of the bounding sphere
     double radius = 0.0;
-    double width = 0.0;                 // of a cylinder around it, along its longest edge
-    std::array<glm::dvec3, 4> corners;  // of a rectangle around it, in its plane; of a curved one, around a point of it
-    double bulge = 0.0;                 // how far it leaves the rectangle
-    std::vector<SampleEnd> ends;        // of each facet
-    std::vector<LampSample> samples;    // even over its area, the first ones too
-    FineSamples fine;                   // about these; of large lamps, others have none
-    std::vector<bool> behind;           // by object: some of it lies behind the plane of the flat lamp
+    double width = 0.0;                 // diameter of a bounding cylinder along its longest edge
+    std::array<glm::dvec3, 4> corners;  // rectangle around it, in its plane; of a curved lamp, in a plane through one of its points
+    double bulge = 0.0;                 // largest distance from the plane of the rectangle
+    std::vector<SampleEnd> ends;        // by facet
+    std::vector<LampSample> samples;    // stratified over its area, any first multiple of 16 of them, too
+    FineSamples fine;                   // finer samples around these; only large lamps have them
+    std::vector<bool> behind;           // by object: does a part of it lie behind the plane of the flat lamp?
     [[nodiscard]] raycast::PatchShape shape() const { return {corners, object, bulge}; }
   };
   [[nodiscard]] const std::vector<Lamp>& lamps() const { return lamps_; }
-  // Is this input surface among the lamps? What else emits is left to whoever asks.
+  // Is this input surface a lamp? Light of other emitters is left to the caller.
   [[nodiscard]] bool is_lamp(std::uint32_t surface) const { return lamp_of(surface) != nullptr; }
-  // The lamp that an input surface belongs to; null: none.
+  // The lamp that an input surface belongs to, or null.
   [[nodiscard]] const Lamp* lamp_of(std::uint32_t surface) const {
     return surface < lamp_of_.size() && lamp_of_[surface] < lamps_.size() ? &lamps_[lamp_of_[surface]] : nullptr;
   }
 
-  // What segments meet: the scene, in which open meshes stand in for curved objects that are slow to meet; two for each, the second ones
-  // behind all objects. The object that such a mesh belongs to, and how far points on it are lifted to be above its meshes; 0: none stand
-  // in.
+  // The objects that shadow segments are tested against. Curved objects that are slow to intersect are replaced by two open meshes each,
+  // the second ones numbered after all objects; whole(o) is the object that a mesh belongs to. lift(o) is the distance by which points on
+  // object o are lifted above its meshes; 0 if it has none.
   [[nodiscard]] const raycast::Scene& objects() const { return *objects_; }
   [[nodiscard]] std::uint32_t whole(std::uint32_t o) const { return o < bodies_.size() ? o : whole_[o - bodies_.size()]; }
   [[nodiscard]] double lift(std::uint32_t o) const { return bodies_[o].lift; }
-  // A point of object o, lifted above these meshes where such stand in: along its normal, and at a concave edge along that of the sheet
-  // beyond it, too, for beside an edge that is round the point may lie between that sheet and the mesh before it.
+  // A point of object o, lifted above its meshes if it has any: along its normal and, at a concave edge, also along the normal of the
+  // adjacent sheet, because beside a rounded edge the point may lie between that sheet and its mesh.
   [[nodiscard]] glm::dvec3 lifted(std::uint32_t o, const glm::dvec3& x, const glm::dvec3& n) const;
-  // How far segments stay off flat surfaces on which they begin and end, so that these need no owners and single precision decides about
-  // nearly all: by more than its error, in a scene of size 1 to 2. Where lamps are far, beside the size of all else, by less: then double
-  // precision decides about more of them, and what stands on a floor has its shadow there.
+  // The distance from flat surfaces at which segments begin and end, so that they need no owners and single precision decides nearly all
+  // tests. It exceeds the single-precision error in a scene of size 1 to 2. If lamps are far away compared with the rest of the scene it
+  // is smaller: then double precision decides more tests, and small objects still cast shadows where they touch the floor.
   [[nodiscard]] double off_surface() const { return off_surface_; }
-  // The sheet of that object which a segment has met.
+  // The sheet of the true object that a segment has met.
   [[nodiscard]] std::uint32_t sheet(const raycast::Hit& hit) const {
     const Body& body = bodies_[whole(hit.object)];
     return body.lift > 0.0 ? body.sheets[hit.object < bodies_.size() ? 0 : 1][hit.sheet] : hit.sheet;
@@ -100,17 +101,17 @@ class DirectLight {
 
  private:
   friend class LitRegion;
-  // How an object is taken out of a lamp.
+  // How an object is treated as a blocker of a lamp.
   struct Body {
     Facets facets;
-    bool convex = false;  // by its outline; an exact one may be off that by as much as meshes that stand in are off their objects
-    bool closed = false;  // by those faces alone that show their front
-    bool exact = false;   // its facets are it
+    bool convex = false;  // by its outline; an exact body may deviate by as much as stand-in meshes deviate from their objects
+    bool closed = false;  // is it bounded by the visible faces alone?
+    bool exact = false;   // are the facets the exact surface?
     raycast::Box bounds;
-    double lift = 0.0;  // above 0: meshes stand in for it where segments are asked, and points on it are lifted above them by so much
-    std::array<std::vector<std::uint32_t>, 2> sheets;  // then: of the faces of both
+    double lift = 0.0;  // if > 0, meshes stand in for it in segment tests, and points on it are lifted above them by this length
+    std::array<std::vector<std::uint32_t>, 2> sheets;  // then: the sheet of each face of both meshes
   };
-  // Sheets that shine alike.
+  // Sheets of equal exitance.
   struct Candidate {
     struct OfObject {
       std::uint32_t object = 0;
@@ -121,23 +122,24 @@ class DirectLight {
     double strength = 0.0, area = 0.0;
   };
   void take_bodies(const std::vector<Surface>& surfaces);
-  // Takes candidates together until they are `most` at most, if that is possible.
+  // Joins candidates until there are at most `most`, if that is possible.
   [[nodiscard]] static std::vector<Candidate> join_alike(const std::vector<Candidate>& singles, const raycast::Scene& objects,
                                                          std::uint32_t most);
-  // A lamp without samples, and these once it is known in place of which objects meshes stand.
+  // make_lamp leaves out the samples, which need to know which objects have stand-in meshes; take_samples adds them.
   [[nodiscard]] static Lamp make_lamp(const raycast::Scene& objects, const std::vector<Surface>& surfaces, const Candidate& candidate);
   void take_samples(Lamp& lamp, bool fine, std::uint64_t seed) const;
 
   const raycast::Scene* objects_ = nullptr;
-  const raycast::Scene* true_objects_ = nullptr;  // without meshes that stand in
+  const raycast::Scene* true_objects_ = nullptr;  // the scene without stand-in meshes
   double off_surface_ = 1e-5;
-  double slack_ = detail::least_slack;  // heights below count as none: twice what faces that are not quite plane are off, if that is more
-  // Where meshes stand in, objects_ points to this.
+  // Heights below this count as zero: least_slack, or twice the deviation of the least planar faces if that is more.
+  double slack_ = detail::least_slack;
+  // The scene that objects_ points to if there are stand-in meshes.
   std::shared_ptr<const raycast::Scene> with_stand_ins_;
-  std::vector<std::uint32_t> whole_;  // of those the objects that they are halves of
+  std::vector<std::uint32_t> whole_;  // by mesh: the object that it belongs to
   std::vector<Lamp> lamps_;
-  std::vector<std::uint32_t> lamp_of_;  // by input surface; beyond the lamps: none
-  std::vector<Body> bodies_;            // by object; without facets: asked by segments
+  std::vector<std::uint32_t> lamp_of_;  // by input surface; values beyond the lamps: none
+  std::vector<Body> bodies_;            // by object; a body without facets is tested by segments
   std::vector<std::uint32_t> rooms_;
 };
 

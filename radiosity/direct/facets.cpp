@@ -32,7 +32,7 @@ namespace radiosity {
 
 namespace detail {
 
-// Collects facets whose corners are known by number, and finds which of them share an edge.
+// Collects facets given by the numbers of their corners, and finds which of them share an edge.
 class FacetCollector {
  public:
   void add(std::span<const std::uint32_t> numbers, Polygon contour) {
@@ -60,7 +60,7 @@ class FacetCollector {
 
  private:
   Facets facets_;
-  std::map<std::pair<std::uint32_t, std::uint32_t>, std::size_t> open_;  // edges that still miss their other facet
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::size_t> open_;  // edges whose second facet has not been found yet
 };
 
 }  // namespace detail
@@ -147,7 +147,7 @@ HALFLIGHT_INLINE glm::dvec3 contour_vector(const glm::dvec3& x, const glm::dvec3
 
 namespace detail {
 
-// The contour of what lies above the horizon of x, of facets that face x: where it runs along the horizon, and elsewhere.
+// Contour integral over the part of the facing facets above the horizon of x: along the horizon, and along the other edges.
 struct ContourAboveHorizon {
   const glm::dvec3 &x, &n;
   double offset = glm::dot(n, x);
@@ -158,7 +158,7 @@ struct ContourAboveHorizon {
     const double ha = height(a), hb = height(b);
     return a + (b - a) * (ha / (ha - hb));
   }
-  // From where the contour of a facet goes below the horizon to where it comes up again.
+  // The term along the horizon, from where the contour of a facet goes below it to where it comes up again.
   [[nodiscard]] double along(std::span<const glm::dvec3> contour) const {
     glm::dvec3 down{0.0}, up{0.0};
     bool crosses = false;
@@ -173,7 +173,7 @@ struct ContourAboveHorizon {
     }
     return crosses ? term(down, up) : 0.0;
   }
-  // The part of an edge that lies above.
+  // The term of the part of an edge above the horizon.
   [[nodiscard]] double above(const glm::dvec3& a, const glm::dvec3& b) const {
     const bool a_above = height(a) >= 0.0, b_above = height(b) >= 0.0;
     if (a_above && b_above) { return term(a, b); }
@@ -182,7 +182,7 @@ struct ContourAboveHorizon {
   }
 };
 
-// Tells of the facets from `first` on which of them face x.
+// Sets `facing` for the facets from `first` to `end`.
 HALFLIGHT_INLINE void find_facing(const Facets& facets, std::uint32_t first, std::uint32_t end, const glm::dvec3& x, double slack,
                                   std::vector<char>& facing) {
   facing.resize(facets.facets.size());

@@ -17,7 +17,7 @@
 namespace radiosity {
 
 HALFLIGHT_INLINE void append_flat_parts(const brep::Builder& boundary, const FaceCorners& face, std::vector<FaceCorners>& parts) {
-  constexpr double planar = 1e-12;  // largest brep::planarity of what counts as planar: rounding leaves about 1e-16
+  constexpr double planar = 1e-12;  // largest brep::planarity that counts as planar; rounding leaves about 1e-16
   std::vector<glm::dvec3> positions;
   for (const std::uint32_t v : face) { positions.push_back(boundary.position(v)); }
   if (face.size() <= 3 || (face.size() > 4 && brep::planarity(positions) < planar)) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Faces of the approximation of a curved object (raycast::Object::approximate) in parts that are planar. Those of its flat sheets are so
-// already; others are warped, and along a curve in which two surfaces meet they have any number of corners and need not be convex.
+// Splits faces of a curved object's polygonal approximation (raycast::Object::approximate) into planar parts. Faces of flat sheets are
+// planar already. Other faces are warped; along a curve in which two surfaces meet they have any number of corners and need not be convex.
 
 #include <cstdint>
 #include <vector>
@@ -11,12 +11,12 @@
 
 namespace radiosity {
 
-// Corners of a face, as vertices of the boundary, or of a part of it, in the same order.
+// Corners of a face or of a part of it, as vertices of the boundary, in contour order.
 using FaceCorners = std::vector<std::uint32_t>;
 
-// Appends the face, of three corners at least, to `parts`: as it is when it is planar, else in triangles, cut by its best inner diagonals
-// (brep/outline.hpp). Faces of four corners are always cut: on a curved surface some are planar by chance alone. Cost: O(n^4) for n corners
-// that are in no plane; there are rarely more than ten.
+// Appends the face, which has at least three corners, to `parts`: unchanged if it is planar, otherwise cut into triangles by its best
+// inner diagonals (brep/outline.hpp). Faces of four corners are always cut, because on a curved surface some are planar by chance only.
+// Cost: O(n^4) for n corners that are not coplanar; n is rarely above ten.
 void append_flat_parts(const brep::Builder& boundary, const FaceCorners& face, std::vector<FaceCorners>& parts);
 
 }  // namespace radiosity

@@ -31,12 +31,12 @@ namespace radiosity {
 
 namespace detail {
 
-// A triangle of a surface that shines.
+// A triangle of an emitting surface.
 struct ShiningTriangle {
   std::array<glm::dvec3, 3> corner;
   const Surface* of = nullptr;
   std::uint32_t object = 0, sheet = 0;
-  double power = 0.0, until = 0.0;  // `until`: the probability of it and of those before it
+  double power = 0.0, until = 0.0;  // `until`: cumulative probability up to and including it
 };
 
 [[nodiscard]] HALFLIGHT_INLINE std::vector<ShiningTriangle> shining_triangles(const std::vector<Surface>& surfaces,
@@ -66,7 +66,7 @@ struct ShiningTriangle {
 HALFLIGHT_INLINE std::vector<LampPhoton> lamp_photons(const std::vector<Surface>& surfaces, const std::vector<Color>& emission,
                                                       const MeetFront& meet, double price) {
   constexpr std::size_t of_a_lamp = 512, fewest = 512, least = 1u << 13, most = 1u << 15;
-  constexpr double most_microseconds = 3e4;  // about what a small audit takes
+  constexpr double most_microseconds = 3e4;  // about the time of a small audit
   std::vector<detail::ShiningTriangle> triangles = detail::shining_triangles(surfaces, emission);
   const auto source = [](const detail::ShiningTriangle& triangle) { return triangle.of->first_surface + triangle.sheet; };
   std::map<std::uint32_t, double> power_of;

@@ -28,7 +28,7 @@ HALFLIGHT_INLINE std::vector<LampSample> lamp_samples(const Facets& facets, std:
     SampleEnd end;
   };
   std::vector<Triangle> triangles;
-  std::vector<double> until;  // cumulated area
+  std::vector<double> until;  // cumulative area
   double total = 0.0;
   for (std::size_t f = 0; f < facets.facets.size(); ++f) {
     const Facets::Facet& facet = facets.facets[f];

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Points of a lamp to which segments are sent: some that are even over its area, and around each of these finer ones, for lamps of which a
-// point sees little: a sky through a window.
+// Points of a lamp to which segments are sent: coarse samples, stratified over its area, and around each of them finer ones, for lamps of
+// which a point may see little, such as a sky through a window.
 
 #include <cstddef>
 #include <cstdint>
@@ -17,8 +17,8 @@
 
 namespace radiosity {
 
-// Where segments to a facet end. Facets of a curved object cut its corners, so their points may lie beneath what segments meet: either the
-// object owns them, and does not block its own points, or, where meshes stand in for it, they are lifted above these.
+// How segments to a facet end. The facets of a curved object lie beneath its surface, so the object would block segments to them. So
+// either the object owns the end and does not block its own points, or, if stand-in meshes replace it, the points are lifted above these.
 struct SampleEnd {
   std::uint32_t owner = raycast::no_object;
   double lift = 0.0;  // along the normal of the facet
@@ -29,14 +29,14 @@ struct LampSample {
   SampleEnd end;
 };
 
-// The first `count` of Sobol's points (1967), mapped to the triangles of the facets laid side by side: each multiple of sixteen of them is
-// even over the area. `ends`: of each facet. `seed`: another one for each lamp, or what the points of one miss those of all
-// others of its shape would miss, too.
+// The first `count` points of Sobol's sequence (1967), mapped to the triangles of the facets laid side by side: each multiple of sixteen
+// points is stratified over the area. `ends`: by facet. `seed`: different for each lamp, so that the sampling errors of lamps of equal
+// shape are independent.
 [[nodiscard]] std::vector<LampSample> lamp_samples(const Facets& facets, std::span<const SampleEnd> ends, std::size_t count,
                                                    std::uint64_t seed);
 
-// Fine samples of equal area, by the coarse one that each is nearest to. Those of a coarse sample fill its cell (Voronoi 1908), the first
-// ones too.
+// Fine samples of equal area, grouped by the nearest coarse sample, so that they fill its Voronoi cell (Voronoi 1908). Any first part of
+// a group is spread over the cell, too.
 class FineSamples {
  public:
   FineSamples() = default;
@@ -48,7 +48,7 @@ class FineSamples {
   }
   // Cells that touch this one, ascending.
   [[nodiscard]] std::span<const std::uint32_t> beside(std::uint32_t cell) const { return beside_[cell]; }
-  // Its part of the lamp's area.
+  // The cell's share of the lamp's area.
   [[nodiscard]] double share(std::uint32_t cell) const {
     return static_cast<double>(of(cell).size()) / static_cast<double>(samples_.size());
   }

@@ -59,7 +59,7 @@ HALFLIGHT_INLINE glm::dvec3 PossibleOutline::light_vector(const glm::dvec3& x, d
 HALFLIGHT_INLINE std::optional<LinearLightVector> LinearLightVector::fit(const Facets::Part& part, const PossibleOutline& outline,
                                                                          const glm::dvec3& centre, double radius, const glm::dvec3& normal,
                                                                          double slack, std::vector<char>& facing) {
-  constexpr double near = 4.0;  // radii of the region: nothing is linear there
+  constexpr double near = 4.0;  // minimum distance in radii of the region; nearer, the fit is not accurate
   if (!(glm::length(part.centre - centre) > near * radius)) { return std::nullopt; }
   const auto scaled = [&](const glm::dvec3& x) {
     const double r = glm::length(part.centre - x);
@@ -81,7 +81,8 @@ HALFLIGHT_INLINE std::optional<LinearLightVector> LinearLightVector::fit(const F
     if (!(glm::length(0.5 * (before + after) - result.value_) <= largest_bend)) { return std::nullopt; }
     result.slopes_[k] = (after - before) / (2.0 * radius);
   }
-  // Where a large facet comes into sight the light has a crease: the axes may miss this much of the light behind it, the corners less.
+  // Where a large facet turns into view, V has a crease. The axes may miss up to this fraction of the light behind the crease, the
+  // corners less.
   const double crease = radius * outline.largest_turning() / std::numbers::pi;
   constexpr double missed_by_axes = 0.6, missed_by_corners = 0.1;
   if (missed_by_axes * crease <= largest_bend) { return result; }
@@ -105,7 +106,7 @@ HALFLIGHT_INLINE glm::dvec3 LinearLightVector::at(const glm::dvec3& x) const {
 
 HALFLIGHT_INLINE double roundness(const Facets& facets, const Facets::Part& part) {
   constexpr double tolerance = 0.002;
-  constexpr int directions = 24;  // spread evenly: a spiral of Fibonacci
+  constexpr int directions = 24;  // uniformly distributed on a Fibonacci spiral
   const double turn = std::numbers::pi * (3.0 - std::sqrt(5.0));
   std::vector<char> facing;
   double r2 = 0.0;

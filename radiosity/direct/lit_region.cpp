@@ -31,7 +31,7 @@ HALFLIGHT_INLINE LitRegion::LitRegion(const DirectLight& light, const raycast::P
   centre_ = box.centre();
   for (const glm::dvec3& p : shape.contour) { radius_ = std::max(radius_, glm::length(p - centre_)); }
   radius_ += shape.bulge;
-  // A point of a surface for which a mesh stands in lies beside that mesh, so it is lifted above it and owned by nothing.
+  // A point on a surface that a mesh stands in for lies close to that mesh, so it is lifted above it and has no owner.
   raycast::PatchShape from = shape;
   lift_ = owner_ != raycast::no_object ? light.lift(owner_) : 0.0;
   if (lift_ > 0.0) {
@@ -94,7 +94,7 @@ HALFLIGHT_INLINE double LitRegion::part_above(Reach& reach, std::size_t p, const
     const double r2 = glm::dot(d, d);
     return part.roundness * glm::dot(n, d) / (r2 * std::sqrt(r2));
   }
-  constexpr std::uint32_t few_edges = 16;  // the light of so few is found from all of them
+  constexpr std::uint32_t few_edges = 16;  // with so few edges, testing all of them is fast enough
   if (part.edges_end - part.edges_begin <= few_edges) { return radiosity::form_factor(facets, part, x, n, light_->slack_, facing_); }
   reach.parts.resize(facets.parts.size());
   const PartLight& light = known(reach.parts[p], facets, part);
@@ -107,19 +107,20 @@ HALFLIGHT_INLINE double LitRegion::visible(std::size_t k, const glm::dvec3& x, c
   const bool all_known = reach.between == Between::bodies;
   const std::size_t shadows = reach.faces.size() + reach.outlines.size();
   const std::size_t segments = segments_for(lamp(k), x, n, others);
-  // To cut out this many takes longer than the fewest segments; than segments that tell whether it is needed.
+  // Cutting out `some_shadows` takes longer than the minimum number of segments; cutting out `many_shadows` takes longer than
+  // the segments that decide whether it is needed.
   constexpr std::size_t some_shadows = 4, many_shadows = 16;
   if ((!all_known && shadows == 0) || (shadows > some_shadows && segments <= detail::fewest_segments) ||
       (!all_known && shadows > many_shadows && mostly_open(reach, x, n))) {
     return seen_share(reach, x, n, segments);
   }
-  const glm::dvec3 above = lifted(x, n);  // the faces of a mesh that stands in for its own object
+  const glm::dvec3 above = lifted(x, n);  // lifted above the faces of the mesh that stands in for its own object
   const double all = unhidden(k, above, n);
   if (!(all > 0.0)) { return 0.0; }
   std::vector<detail::LampPart> left;
   const double open = std::min(1.0, cut(reach, above, n, all_known ? nullptr : &left) / all);
   if (all_known || left.empty()) { return open; }
-  constexpr double little = 0.25;  // of a lamp: few of the segments that are even over it would tell
+  constexpr double little = 0.25;  // visible share below which few of the lamp's evenly spread segments would hit it
   return open < little ? open * seen_share_of(reach, x, n, left) : seen_share(reach, x, n, segments);
 }
 

@@ -25,13 +25,13 @@
 #include <radiosity/direct/lamp_samples.hpp>
 #include <radiosity/geometry/form_factor.hpp>
 
-// LitRegion: what of a lamp is seen, by segments to its samples.
+// LitRegion: the visible share of a lamp, by segments to its samples.
 
 namespace radiosity {
 
 namespace detail {
 
-inline constexpr std::size_t least_carrying = 4;  // samples of a lamp that face a point, for the share that is seen to follow from them
+inline constexpr std::size_t least_carrying = 4;  // least number of samples facing the point from which the visible share is estimated
 
 }  // namespace detail
 
@@ -49,7 +49,8 @@ HALFLIGHT_INLINE LitRegion::Asked16 LitRegion::ask16(Reach& reach, const glm::dv
                                                      std::span<const LampSample> samples) {
   const double off_surface = light_->off_surface();
   const glm::dvec3 from = lift_ > 0.0 ? lifted(x, n) : x + off_surface * n;
-  const bool curved = owner_ != raycast::no_object && !light_->objects_->object(owner_).flat();  // and convex, or a mesh would stand in
+  // Convex as well, because otherwise meshes would stand in for it.
+  const bool curved = owner_ != raycast::no_object && !light_->objects_->object(owner_).flat();
   const std::uint32_t source = curved ? owner_ : raycast::no_object;
   Asked16 result;
   raycast::Segments16 segments;
@@ -96,9 +97,9 @@ HALFLIGHT_INLINE bool LitRegion::mostly_open(Reach& reach, const glm::dvec3& x, 
   return seen > 0.5 * all;
 }
 
-// n segments know the share that is seen to some n^-3/4: with so many, a lamp that gives a part of the light is known to the same error of
-// all of it as one that gives it all, or to less. What it gives need not be known well: a flat one shows its area by the cosine, other ones
-// a quarter of theirs, as convex bodies do in the mean (Cauchy 1832).
+// n segments give the visible share with an error of some n^-3/4. The number is chosen so that a lamp that gives only a part of the light
+// adds no more error to the whole than a lamp that gives all of it. A rough estimate of its light suffices: a flat lamp shows its area
+// times the cosine, any other one a quarter of its area, as convex bodies do on average (Cauchy 1832).
 HALFLIGHT_INLINE std::size_t LitRegion::segments_for(const DirectLight::Lamp& lamp, const glm::dvec3& x, const glm::dvec3& n,
                                                      const Color& others) {
   const std::size_t all = lamp.samples.size();
@@ -114,7 +115,7 @@ HALFLIGHT_INLINE std::size_t LitRegion::segments_for(const DirectLight::Lamp& la
   return std::clamp(wanted, std::min(detail::fewest_segments, all), all);
 }
 
-// Of `most` of the samples, a multiple of sixteen, or of more until enough of them face the point.
+// Uses `most` of the samples, a multiple of sixteen, or more until enough of them face the point.
 HALFLIGHT_INLINE double LitRegion::seen_share(Reach& reach, const glm::dvec3& x, const glm::dvec3& n, std::size_t most) {
   const DirectLight::Lamp& lamp = light_->lamps_[reach.lamp];
   weight_.clear();
@@ -151,7 +152,7 @@ namespace detail {
   return sum;
 }
 
-// The part on the side of a plane through its middle to which the normal points.
+// The part on that side of a plane through its middle to which `normal` points.
 [[nodiscard]] HALFLIGHT_INLINE LampPart half_of(const LampPart& whole, const glm::dvec3& normal, const glm::dvec3& x, const glm::dvec3& n) {
   LampPart half{{}, whole.facet, 0.0};
   clip_to_horizon(whole.contour, middle_of(whole.contour), normal, half.contour);
@@ -159,7 +160,7 @@ namespace detail {
   return half;
 }
 
-// Cuts parts in two, across their longest edges, until none has more than a 48th of the form factor of all.
+// Bisects parts across their longest edges until none has more than a 48th of the total form factor.
 HALFLIGHT_INLINE void cut_evenly(std::vector<LampPart>& parts, const glm::dvec3& x, const glm::dvec3& n) {
   constexpr std::size_t most_cuts = 256;
   constexpr double share = 1.0 / 48.0;
@@ -192,7 +193,7 @@ HALFLIGHT_INLINE bool LitRegion::too_near(const DirectLight::Lamp& lamp, const g
   if (!near) { return false; }
   const double area = lamp.area / lamp.correction;  // of the facets
   const double by_outline = radiosity::form_factor(lamp.facets, x, n, light_->slack_, facing_);
-  constexpr double off = 0.25, least = 0.02;  // less light is not worth the parts
+  constexpr double off = 0.25, least = 0.02;  // off: relative difference; least: smaller form factors are not worth the effort
   return by_outline > least && std::abs(area * mean_weight / std::numbers::pi - by_outline) > off * by_outline;
 }
 
@@ -252,7 +253,7 @@ HALFLIGHT_INLINE void LitRegion::refine(Reach& reach, const glm::dvec3& x, const
   mixed_.insert(mixed_.end(), surveyed.begin(), surveyed.end());
   std::sort(mixed_.begin(), mixed_.end());
   mixed_.erase(std::unique(mixed_.begin(), mixed_.end()), mixed_.end());
-  // With m points in each of k cells that are partly seen, the area that is seen is off by some sqrt(k / (12 m)) cells.
+  // With m points in each of k partly visible cells, the standard error of the visible area is some sqrt(k / (12 m)) cells.
   constexpr double error = 0.03;
   constexpr std::size_t most = 512;
   const double at_least = std::max(1.0, seen_cells);

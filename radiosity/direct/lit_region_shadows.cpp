@@ -23,7 +23,7 @@
 #include <radiosity/visibility/polygon_shaft.hpp>
 #include <radiosity/visibility/shadow.hpp>
 
-// LitRegion: what stands between a region and a flat lamp, as shadows that are cut out of the lamp.
+// LitRegion: blockers between a region and a flat lamp whose shadows are cut out of the lamp.
 
 namespace radiosity {
 
@@ -35,7 +35,7 @@ HALFLIGHT_INLINE bool LitRegion::take_bodies(Reach& reach, const raycast::PatchS
   if (!reach.list.known() && light_->bodies_.size() > most_objects) { return false; }
   if (reach.list.known()) {
     for (const std::uint32_t s : reach.list.shapes()) { candidates.push_back(light_->whole(objects.object_of(s))); }
-  } else {  // few objects of many faces
+  } else {  // no occluder list, but few objects: take them all
     for (std::uint32_t o = 0; o < light_->bodies_.size(); ++o) {
       if (!objects.left_out(o)) { candidates.push_back(o); }
     }
@@ -44,11 +44,11 @@ HALFLIGHT_INLINE bool LitRegion::take_bodies(Reach& reach, const raycast::PatchS
   std::sort(candidates.begin(), candidates.end());
   candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
   const double slack = light_->slack_;
-  // With a bulge the contour says too little, and all candidates are taken.
+  // The shaft needs all points of the region, which the contour of a region with a bulge does not bound; then all candidates are kept.
   std::vector<Shaft> shaft;
   if (shape.bulge == 0.0) { shaft.emplace_back(shape.contour, lamp.corners, slack + lift_); }
   const auto misses = [&](std::span<const glm::dvec3> corners) { return !shaft.empty() && shaft[0].misses(corners); };
-  constexpr std::size_t most_faces = 128, most_of_stand_ins = 64;  // past these segments cost less
+  constexpr std::size_t most_faces = 128, most_of_stand_ins = 64;  // with more faces segments cost less
   bool all = true;
   for (const std::uint32_t o : candidates) {
     const DirectLight::Body& body = light_->bodies_[o];
@@ -65,7 +65,7 @@ HALFLIGHT_INLINE bool LitRegion::take_bodies(Reach& reach, const raycast::PatchS
         for (std::uint32_t f = 1; f < facets.size(); ++f) {
           if (facets[f].height(centre_) > facets[outline.nearest].height(centre_)) { outline.nearest = f; }
         }
-        const auto side = [&](std::uint32_t f) {  // 1: all of the region is before the facet, -1: behind it
+        const auto side = [&](std::uint32_t f) {  // 1: the whole region is in front of the facet, -1: behind it
           const double height = facets[f].height(centre_);
           return height > radius_ + slack ? 1 : height < -radius_ - slack ? -1 : 0;
         };
@@ -92,7 +92,8 @@ HALFLIGHT_INLINE bool LitRegion::take_bodies(Reach& reach, const raycast::PatchS
     }
     const std::size_t before = reach.faces.size();
     for (const Facets::Facet& facet : body.facets.facets) {
-      if (body.closed && facet.height(centre_) <= slack - radius_) { continue; }  // its back, behind its fronts
+      // A back face of a closed body: its front faces hide as much.
+      if (body.closed && facet.height(centre_) <= slack - radius_) { continue; }
       if (misses(facet.contour)) { continue; }
       reach.faces.push_back({facet.contour, facet.normal});
     }
@@ -106,9 +107,10 @@ HALFLIGHT_INLINE bool LitRegion::take_bodies(Reach& reach, const raycast::PatchS
 
 namespace detail {
 
-// What lies behind a convex body, or face, for all points of a region: within all `cones`, one over the body from each corner of the
-// region, and behind all `fronts`, the planes of faces that a point of the region may be before. A segment from each corner to a place
-// there meets the body; then so do those from the points between the corners, because the body is convex.
+// The umbra of a convex body or face: the places hidden from all points of a region. These lie within all `cones` (one from each corner
+// of the region over the body) and behind all `fronts` (the planes of those faces that a point of the region may be in front of). A
+// segment from each corner to such a place meets the body; because the body is convex, so does a segment from any point between the
+// corners.
 struct Umbra {
   std::vector<HalfSpace> cones, fronts;
 
@@ -125,7 +127,7 @@ struct Umbra {
 HALFLIGHT_INLINE detail::Umbra LitRegion::umbra_of(const Reach::Outline& outline, std::span<const glm::dvec3> region) {
   detail::Umbra umbra;
   const auto& facets = outline.facets->facets;
-  constexpr std::size_t most_facets = 32;  // walls and furniture; past these the question costs more than it saves
+  constexpr std::size_t most_facets = 32;  // enough for walls and furniture; with more, the test costs more than it saves
   if (facets.size() > most_facets || !(facets[outline.nearest].height(centre_) > radius_ + light_->slack_)) { return {}; }
   for (const Facets::Facet& facet : facets) {
     if (facet.height(centre_) > -radius_) { umbra.fronts.push_back({facet.contour[0], -facet.normal}); }
@@ -153,16 +155,16 @@ HALFLIGHT_INLINE detail::Umbra LitRegion::umbra_of(const Blocker& face, std::spa
 }
 
 HALFLIGHT_INLINE void LitRegion::leave_out_hidden(Reach& reach, std::span<const glm::dvec3> contour) {
-  constexpr std::size_t few = 8;           // so few are cut out faster than they are tested
-  constexpr std::size_t most_umbrae = 16;  // of those that look largest
-  constexpr double least_square = 1e-12;   // of a distance; nearer counts as this
+  constexpr std::size_t few = 8;           // so few are cut out faster than they are tested for being hidden
+  constexpr std::size_t most_umbrae = 16;  // only the blockers of largest apparent size are tried as hiding others
+  constexpr double least_square = 1e-12;   // lower bound of a squared distance
   if (reach.faces.size() + reach.outlines.size() <= few) { return; }
   std::vector<glm::dvec3> region;
   for (const glm::dvec3& p : contour) {
     if (std::find(region.begin(), region.end(), p) == region.end()) { region.push_back(p); }
   }
   struct Shadow {
-    double size = 0.0;  // about that of the solid angle
+    double size = 0.0;  // approximate solid angle
     const Blocker* face = nullptr;
     const Reach::Outline* outline = nullptr;
     bool hidden = false;
@@ -207,7 +209,8 @@ HALFLIGHT_INLINE void LitRegion::leave_out_hidden(Reach& reach, std::span<const 
   reach.outlines = std::move(outlines);
 }
 
-// The convex hull of the corners as they are seen from x (Andrew 1979): so it does not matter how a curved body was cut into facets.
+// The cone is bounded by the convex hull of the corners as projected from x (Andrew 1979), so it does not depend on how a curved body was
+// divided into facets.
 HALFLIGHT_INLINE void LitRegion::make_cone(const Reach::Outline& outline, const glm::dvec3& x) {
   cone_.clear();
   const auto& facets = outline.facets->facets;
@@ -216,7 +219,7 @@ HALFLIGHT_INLINE void LitRegion::make_cone(const Reach::Outline& outline, const 
     plane = &*std::max_element(facets.begin(), facets.end(), [&](const auto& a, const auto& b) { return a.height(x) < b.height(x); });
     if (!(plane->height(x) > light_->slack_)) { return; }
   }
-  const glm::dvec3 axis = -plane->normal;  // all corners lie ahead
+  const glm::dvec3 axis = -plane->normal;  // all corners lie in this direction
   const auto [s, t] = orthonormal(axis);
   projected_.clear();
   for (const glm::dvec3& corner : outline.corners) {
@@ -236,13 +239,13 @@ HALFLIGHT_INLINE void LitRegion::make_cone(const Reach::Outline& outline, const 
       while (hull_.size() >= base + 2 && turns_right(hull_[hull_.size() - 2], hull_.back(), *first)) { hull_.pop_back(); }
       hull_.push_back(*first);
     }
-    hull_.pop_back();  // it begins the other half
+    hull_.pop_back();  // it is the first point of the other half
   };
   half(projected_.begin(), projected_.end());
   half(projected_.rbegin(), projected_.rend());
   for (std::size_t i = 0; i < hull_.size(); ++i) {
     const glm::dvec3 a = *hull_[i].corner - x, b = *hull_[i + 1 < hull_.size() ? i + 1 : 0].corner - x, across = glm::cross(a, b);
-    // Of two that are seen in one place, as those of an edge seen from its end, there is no plane.
+    // Two corners in the same direction, such as those of an edge seen from its end, span no plane.
     constexpr double least = raycast::tol_edge * raycast::tol_edge;
     if (glm::dot(across, across) > least * glm::dot(a, a) * glm::dot(b, b)) { cone_.push_back({x, across}); }
   }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// How finely a solid must be approximated for its outline. Where two sheets meet at an angle, as at the rim of a lens, the outline runs
-// along the curve between them.
+// How finely a solid must be approximated so that its outline is accurate. Where two sheets meet at an angle, as at the rim of a lens,
+// the outline follows the curve between them.
 
 #include <cstdint>
 
@@ -12,9 +12,10 @@
 
 namespace radiosity {
 
-// The tolerance (a length) of the approximation of a solid by which such curves are off by `part` of its size. Chords that are off both
-// surfaces by d are off their curve by d / sin of half the angle of the solid there; a right angle counts as none, and below an eighth of
-// that of other solids the tolerance does not fall. Its size is that of a coarse approximation: bounds may be far wider.
+// The tolerance (a length) of an approximation of the solid whose outline is off by at most `part` of the solid's size. Chords that are
+// off both surfaces by d are off their common curve by d / sin(half the dihedral angle). So the tolerance is that of a smooth solid,
+// reduced by this factor where the angle is below 90 degrees, but at most to an eighth. The size is measured on a coarse approximation,
+// because the bounds may be much wider.
 [[nodiscard]] double outline_tolerance(const raycast::PlacedObject& object, double part);
 
 // The facets of a sheet of a curved solid, by the tolerance above or a finer one, until they have the area of the sheet within .3 %: a long

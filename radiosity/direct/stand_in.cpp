@@ -25,10 +25,11 @@ namespace radiosity {
 
 namespace detail {
 
-// Some faces of a closed boundary as an open mesh. A vertex where several fans of them meet becomes one for each fan.
+// Some faces of a closed boundary as an open mesh. A vertex at which several fans of these faces meet is duplicated, one copy a fan.
 [[nodiscard]] HALFLIGHT_INLINE std::shared_ptr<const raycast::Mesh> open_mesh(const brep::Builder& boundary,
                                                                               std::span<const FaceCorners> faces) {
-  std::map<std::pair<std::uint32_t, std::uint32_t>, std::pair<std::uint32_t, std::uint32_t>> corners_of_edge;  // by its vertices
+  // By the vertices of the edge.
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::pair<std::uint32_t, std::uint32_t>> corners_of_edge;
   std::uint32_t count = 0;
   for (const auto& face : faces) {
     const auto size = static_cast<std::uint32_t>(face.size());

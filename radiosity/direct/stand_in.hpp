@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Triangle meshes that stand in for curved objects whose meeting with a segment takes long to compute.
+// Triangle meshes that stand in for curved objects with which the intersection of a segment is slow to compute.
 
 #include <cstdint>
 #include <memory>
@@ -14,11 +14,11 @@ namespace radiosity {
 
 struct StandIn {
   std::shared_ptr<const raycast::Mesh> mesh;
-  std::vector<std::uint32_t> sheets;  // of the object, by face of the mesh
+  std::vector<std::uint32_t> sheets;  // by face of the mesh: sheet of the object
 };
 
-// The object to a tolerance (a length) as two meshes that are open, so that each crossing of a segment decides by itself; none when they
-// make none.
+// Approximates the object within `tolerance` (a length) by two open meshes, so that each crossing of a segment counts by itself, without
+// entry and exit; empty if they cannot be made.
 [[nodiscard]] std::vector<StandIn> open_meshes(const raycast::PlacedObject& object, double tolerance);
 
 }  // namespace radiosity

@@ -33,16 +33,17 @@ namespace radiosity {
 
 namespace detail {
 
-// How far the facets of a cover may be off a curved rim, to its object's diameter; parts below this share of a facet are rounding.
+// cover_tolerance: largest distance of a cover's facets from its curved rim, relative to the object's diameter. least_cover: covered
+// parts smaller than this share of a facet are rounding.
 inline constexpr double cover_tolerance = 0.002, least_cover = 1e-9;
 
-// May a face with this plane and corner lie on one of the facets? Whether it does in the end is what the scene says of a point.
+// May a face with this normal and corner coincide with the facet? The final decision is made by Scene::covered at a point.
 [[nodiscard]] HALFLIGHT_INLINE bool may_coincide(const Facets::Facet& facet, const glm::dvec3& normal, const glm::dvec3& corner,
                                                  double near) {
   return std::abs(facet.height(corner)) <= near && glm::dot(facet.normal, normal) > raycast::tol_same_way;
 }
 
-// Cuts a convex piece of a facet along the edges of a convex cover: what lies within, and convex pieces of what lies without.
+// Result of cutting a convex piece of a facet along the edges of a convex cover: the part within, and convex pieces of the part outside.
 struct CoverCut {
   Polygon within;
   std::vector<Polygon> without;
@@ -69,7 +70,7 @@ struct CoverCut {
   return sum / static_cast<double>(polygon.size());
 }
 
-// The faces of later objects that may coincide with some of these facets.
+// The faces of later objects that may coincide with one of these facets.
 [[nodiscard]] HALFLIGHT_INLINE std::vector<Facets::Facet> covers_of(const Facets& facets, std::uint32_t object,
                                                                     const raycast::Scene& objects, const std::vector<Surface>& surfaces,
                                                                     double near) {
@@ -142,7 +143,7 @@ HALFLIGHT_INLINE void cut_out_covered(Facets& facets, std::uint32_t object, cons
   }
   if (!changed) { return; }
   facets.facets = std::move(uncovered);
-  facets.edges.clear();  // each piece with its own: along borders between pieces they cancel
+  facets.edges.clear();  // each piece has its own edges; along borders between pieces their contour terms cancel
   for (std::uint32_t f = 0; f < facets.facets.size(); ++f) {
     const Polygon& contour = facets.facets[f].contour;
     for (std::size_t i = 0; i < contour.size(); ++i) {

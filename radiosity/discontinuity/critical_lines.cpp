@@ -22,7 +22,7 @@ namespace detail {
 
 using Segment2 = std::pair<glm::dvec3, glm::dvec3>;
 
-// The part of a - b where low <= height <= high.
+// The part of the segment a - b where low <= height <= high.
 template <class Height>
 [[nodiscard]] std::optional<Segment2> part_between(const glm::dvec3& a, const glm::dvec3& b, const Height& height, double low,
                                                    double high) {
@@ -40,7 +40,7 @@ template <class Height>
   return Segment2{at(from), at(to)};
 }
 
-// The part of a - b, in the plane of the face, that lies on the face.
+// The part of the segment a - b that lies on the face; a and b must lie in its plane.
 [[nodiscard]] HALFLIGHT_INLINE std::optional<Segment2> part_on(const ReceivingFace& face, const glm::dvec3& a, const glm::dvec3& b) {
   double from = 0.0;
   double to = 1.0;
@@ -63,7 +63,7 @@ HALFLIGHT_INLINE void add_line(const ReceivingFace& face, const glm::dvec3& a, c
   if (part && glm::length(part->second - part->first) > tolerance) { lines.push_back({part->first, part->second, degree}); }
 }
 
-// Where the line from `source` through x meets the plane of the face; source must be higher than x.
+// Where the line from `source` through x meets the plane of the face; source must be higher above it than x.
 [[nodiscard]] HALFLIGHT_INLINE glm::dvec3 shadow_of(const ReceivingFace& face, const glm::dvec3& x, const glm::dvec3& source) {
   const double h = face.height(x);
   return x + h / (face.height(source) - h) * (x - source);
@@ -74,7 +74,7 @@ HALFLIGHT_INLINE void add_line(const ReceivingFace& face, const glm::dvec3& a, c
   if (edge.right == Facets::none) { return true; }
   const double left = body.facets[edge.left].height(x);
   const double right = body.facets[edge.right].height(x);
-  if (std::abs(left) <= tolerance && std::abs(right) <= tolerance) { return false; }  // between parts of one facet, seen from its plane
+  if (std::abs(left) <= tolerance && std::abs(right) <= tolerance) { return false; }  // an edge between parts of one facet, seen edge-on
   return (left > tolerance) != (right > tolerance);
 }
 
@@ -86,13 +86,13 @@ HALFLIGHT_INLINE void add_critical_lines(const ReceivingFace& face, const Facets
   const auto height = [&](const glm::dvec3& p) { return face.height(p); };
   const auto before_lamp = [&](const glm::dvec3& p) { return plane.height(p); };
   constexpr double any = 1e300;
-  // The lamp's outline above the face.
+  // The part of the lamp's outline above the face.
   std::vector<detail::Segment2> outline;
   for (const Facets::Edge& edge : lamp.edges) {
     if (edge.right != Facets::none) { continue; }
     if (const auto part = detail::part_between(edge.a, edge.b, height, tolerance, any)) { outline.push_back(*part); }
   }
-  // The blocker's edges between both planes.
+  // The parts of the blocker's edges between the planes of lamp and face.
   for (const Facets::Edge& edge : blocker.edges) {
     auto part = detail::part_between(edge.a, edge.b, before_lamp, tolerance, any);
     if (part) { part = detail::part_between(part->first, part->second, height, 0.0, any); }
@@ -100,7 +100,7 @@ HALFLIGHT_INLINE void add_critical_lines(const ReceivingFace& face, const Facets
     const auto& [a, b] = *part;
     for (const auto& [p, q] : outline) {
       const bool outlined = detail::on_outline(blocker, edge, p, tolerance);
-      // VE: the edge's shadow from p.
+      // VE: the shadow of the blocker's edge from the lamp vertex p.
       const auto below = detail::part_between(a, b, height, 0.0, face.height(p) - tolerance);
       if (outlined && below) {
         const glm::dvec3 across = glm::normalize(glm::cross(a - p, b - p));
@@ -108,7 +108,7 @@ HALFLIGHT_INLINE void add_critical_lines(const ReceivingFace& face, const Facets
         detail::add_line(face, detail::shadow_of(face, below->first, p), detail::shadow_of(face, below->second, p), shares_edge ? 1 : 2,
                          tolerance, lines);
       }
-      // EV: the lamp's edge through the corners where this edge begins and ends.
+      // EV: the lamp's edge, projected through the end points of the blocker's edge.
       if (!outlined && !detail::on_outline(blocker, edge, q, tolerance)) { continue; }
       for (const glm::dvec3& v : {a, b}) {
         const double h = face.height(v);
@@ -134,7 +134,7 @@ HALFLIGHT_INLINE void add_contact_lines(const ReceivingFace& face, const Facets&
       top = std::max(top, face.height(p));
       bottom = std::min(bottom, face.height(p));
     }
-    // One that lies on the face covers it, one that stands on it or goes through it parts it.
+    // A facet that lies on the face covers it; one that stands on it or passes through it divides it.
     const bool lies = top <= tolerance && bottom >= -tolerance && glm::dot(facet.normal, face.normal) > 0.0;
     if (!lies && !(top > tolerance)) { continue; }
     std::vector<glm::dvec3> met;
@@ -154,11 +154,12 @@ HALFLIGHT_INLINE void add_contact_lines(const ReceivingFace& face, const Facets&
 
 namespace detail {
 
-// A line with what is asked of it again and again.
+// A line with precomputed length and direction.
 struct JoinedLine {
   explicit JoinedLine(const CriticalLine& l) : line{l}, length{glm::length(l.to - l.from)}, along{(l.to - l.from) / length} {}
 
-  // Joins another line that lies within the tolerance of this one's straight line, and meets or overlaps it; false when it does not.
+  // Joins another line if it lies within the tolerance of this line's infinite extension and meets or overlaps this line; otherwise
+  // returns false.
   [[nodiscard]] bool take(const CriticalLine& other, double tolerance) {
     const glm::dvec3 to_from = other.from - line.from, to_to = other.to - line.from;
     const auto beside = [&](const glm::dvec3& d) {

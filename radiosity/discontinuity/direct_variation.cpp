@@ -30,7 +30,7 @@ struct LightSamples {
   std::array<Color, count> light;
 };
 
-// The variance that a cut takes away: that between the means of both sides.
+// The variance that a cut removes: the variance between the means of both sides.
 [[nodiscard]] HALFLIGHT_INLINE double variance_between(const LightSamples& samples, const CutPlane& cut) {
   std::array<Color, 2> sum{Color{0.0}, Color{0.0}};
   std::array<double, 2> count{};
@@ -45,7 +45,7 @@ struct LightSamples {
   return count[0] * count[1] / (all * all) * glm::dot(difference, difference);
 }
 
-// The square of the diameter over the area: length over width of what is long.
+// Squared diameter over area; for an elongated polygon, about its length over its width.
 [[nodiscard]] HALFLIGHT_INLINE double length_over_width(const Polygon& polygon) {
   double square = 0.0;
   for (const glm::dvec3& a : polygon) {
@@ -55,7 +55,7 @@ struct LightSamples {
   return area > 0.0 ? square / area : std::numeric_limits<double>::infinity();
 }
 
-// The larger of both parts' lengths over widths.
+// The larger length over width of the two parts.
 [[nodiscard]] HALFLIGHT_INLINE double worst_part(const Polygon& contour, const CutPlane& cut) {
   Polygon above;
   Polygon below;
@@ -70,7 +70,7 @@ HALFLIGHT_INLINE DirectVariation direct_variation(LitRegion& region, const Patch
                                                   const std::vector<CriticalLine>& lines) {
   using detail::LightSamples;
   LightSamples samples;
-  std::vector<std::array<double, 2>> arrives(region.size(), {0.0, 0.0});  // of the light of each lamp, and all of it
+  std::vector<std::array<double, 2>> arrives(region.size(), {0.0, 0.0});  // light of each lamp that arrives, and its unoccluded light
   Color mean{0.0};
   DirectVariation result;
   double& square = result.square;
@@ -94,7 +94,7 @@ HALFLIGHT_INLINE DirectVariation direct_variation(LitRegion& region, const Patch
     if (arrives[k][1] > 0.0) { result.seen.push_back({region.lamp(k).surface, arrives[k][0] / arrives[k][1]}); }
   }
 
-  constexpr double even = 1.0 + 0x1p-20;  // keeps rounding from deciding between the sides of a square
+  constexpr double even = 1.0 + 0x1p-20;  // so that rounding does not decide between the sides of a square
   const double longest = std::max(longest_cut_part, detail::length_over_width(patch.contour)) * even;
   double most = -1.0;
   for (std::size_t i = 0; i < patch.contour.size(); ++i) {
@@ -103,7 +103,7 @@ HALFLIGHT_INLINE DirectVariation direct_variation(LitRegion& region, const Patch
     const CutPlane cut{patch.centroid, glm::normalize(glm::cross(patch.normal, side))};
     const double proportion = detail::worst_part(patch.contour, cut);
     if (!(proportion <= longest)) { continue; }
-    // Where the light is as good as even the proportions of the parts decide.
+    // Where the light is nearly constant, the proportions of the parts decide.
     const double gain = detail::variance_between(samples, cut) + (0.01 * result.variance + 1e-9 * square + 1e-300) / proportion;
     if (!(gain > most * even)) { continue; }
     most = gain;

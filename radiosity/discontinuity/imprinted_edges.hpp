@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// What discontinuity meshing did, for the report.
+// Counts of discontinuity meshing, for the report.
 
 #include <cstdint>
 
 namespace radiosity {
 
 struct ImprintedEdges {
-  std::uint64_t edges = 0, faces = 0;  // along the edges of shadows; on so many faces
-  std::uint64_t limited = 0;           // faces on which no more were allowed
-  std::uint64_t not_looked_at = 0;     // faces whose lines were not looked for: too many pairs of faces, lamps and objects
+  std::uint64_t edges = 0, faces = 0;  // shadow edges imprinted, and the number of faces with some
+  std::uint64_t limited = 0;           // faces that reached the limit of edges
+  std::uint64_t not_looked_at = 0;     // faces whose lines were not searched: too many combinations of faces, lamps and objects
 };
 
 }  // namespace radiosity

@@ -41,14 +41,14 @@ namespace radiosity {
 
 namespace detail {
 
-// What is nearer to a face touches it, in a scene of size 1 to 2.
+// Distances to a face below this count as contact, in a scene of size 1 to 2.
 inline constexpr double tol_touch = 1e-9;
-// Lines nearer than this to each other, relative to the face, count as one: what lies between them would be a sliver.
+// Lines closer together than this, relative to the face, are joined, because the part between them would be a sliver.
 inline constexpr double tol_line = 1e-3;
-// A line that covers a smaller share of its chord through a patch does not cut it: the rest of the cut would be no edge of a shadow.
+// A line that covers less than this share of its chord through a patch does not cut it: most of the cut would not be a shadow edge.
 inline constexpr double least_share_of_chord = 0.3;
 
-// Of the chord of a convex polygon on the line, the share that the line itself covers; 0 where it only touches.
+// The share of the chord of a convex polygon along this line that the line itself covers; 0 if it only touches the polygon.
 [[nodiscard]] HALFLIGHT_INLINE double share_of_chord(const Polygon& polygon, const glm::dvec3& normal, const CriticalLine& line) {
   const double length = glm::length(line.to - line.from);
   const glm::dvec3 along = (line.to - line.from) / length;
@@ -68,7 +68,7 @@ inline constexpr double least_share_of_chord = 0.3;
   return to > from ? std::max(0.0, std::min(to, length) - std::max(from, 0.0)) / (to - from) : 0.0;
 }
 
-// Does the line come within the radius of the point? Most lines of a face stay away from a patch of it, and this is soon said.
+// Does the line come within this distance of the point? A quick test, as most lines of a face do not pass near a given patch.
 [[nodiscard]] HALFLIGHT_INLINE bool comes_near(const CriticalLine& line, const glm::dvec3& point, double square_of_radius) {
   const glm::dvec3 along = line.to - line.from, d = point - line.from, across = glm::cross(along, d);
   return glm::dot(across, across) <= square_of_radius * glm::dot(along, along);
@@ -138,7 +138,7 @@ HALFLIGHT_INLINE DirectVariation LightMeshing::look_at(const Surface& surface, b
   LitRegion region{light_, {patch.contour, object_of_[surface.first_surface], 0.0, sheet}, patch.normal};
   std::vector<CriticalLine> crossing;
   if (const auto found = faces_.find(key(surface, face)); found != faces_.end()) {
-    double square = 0.0;  // of the patch's radius
+    double square = 0.0;  // squared radius of the patch
     for (const glm::dvec3& p : patch.contour) { square = std::max(square, glm::dot(p - patch.centroid, p - patch.centroid)); }
     for (const CriticalLine& line : found->second.lines) {
       if (!detail::comes_near(line, patch.centroid, square)) { continue; }
@@ -165,7 +165,7 @@ HALFLIGHT_INLINE std::optional<double> LightMeshing::seen_share(const Hierarchy&
   const auto& lamps = light_.lamps();
   const auto whole = std::find_if(lamps.begin(), lamps.end(), [&](const DirectLight::Lamp& l) { return l.surface == surface; });
   if (!whole->flat || whole->facets.facets.size() != 1) { return std::nullopt; }
-  if (hierarchy[lamp].area < (1.0 - 0x1p-20) * whole->facets.facets[0].area) { return std::nullopt; }  // it was cut
+  if (hierarchy[lamp].area < (1.0 - 0x1p-20) * whole->facets.facets[0].area) { return std::nullopt; }  // the lamp was cut
   const std::vector<LampSeen>& seen = measured_[node].variation.seen;
   const auto found = std::find_if(seen.begin(), seen.end(), [&](const LampSeen& s) { return s.surface == surface; });
   return found != seen.end() ? std::optional{found->share} : std::nullopt;

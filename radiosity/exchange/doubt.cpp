@@ -67,7 +67,7 @@ HALFLIGHT_INLINE void DoubtSum::add(std::uint32_t node, double error) {
 
 HALFLIGHT_INLINE void DoubtSum::remove(std::uint32_t node, double error) {
   if (!(error > 0.0) || node >= across_.size()) { return; }
-  across_[node] = std::max(0.0, across_[node] - error);  // what is left may be rounding alone
+  across_[node] = std::max(0.0, across_[node] - error);  // the remainder may be negative by rounding
   squares_[node] = std::max(0.0, squares_[node] - error * error);
 }
 

@@ -28,8 +28,8 @@ namespace detail {
   return term(t1, t1 * t1 + h2) - term(t0, t0 * t0 + h2) - length + angle;
 }
 
-// Integral of ln |x - p| over the points x of the edge, with respect to its length. h is measured along the perpendicular; the root of
-// d^2 - t^2 would be wrong by 1e-8.
+// Integral of ln |x - p| over the points x of the edge, by arc length. h is the length of the perpendicular; computing it as the square
+// root of d^2 - t^2 would have a rounding error of 1e-8.
 [[nodiscard]] HALFLIGHT_INLINE double log_potential(const glm::dvec3& p, const Edge& edge) {
   const glm::dvec3 d = edge.start - p;
   const double t0 = glm::dot(d, edge.direction);
@@ -57,8 +57,9 @@ template <class Function>
   return half * sum;
 }
 
-// rho^-12, by which the six-point rule over [a, b] errs: rho is the sum of the half-axes of the largest ellipse with foci a and b that
-// holds no singular point, in units of half the interval (Trefethen, Is Gauss quadrature better than Clenshaw-Curtis?, 2008, theorem 4.5).
+// The factor rho^-12 in the error of the six-point rule over [a, b]: rho is the sum of the half-axes of the largest ellipse with foci a
+// and b that contains no singular point, in units of half the interval (Trefethen, Is Gauss quadrature better than Clenshaw-Curtis?,
+// 2008, theorem 4.5).
 [[nodiscard]] HALFLIGHT_INLINE double gauss6_decay(std::span<const std::complex<double>> singular, double a, double b) {
   double axis = std::numeric_limits<double>::infinity();
   for (const std::complex<double>& z : singular) { axis = std::min(axis, (std::abs(z - a) + std::abs(z - b)) / (b - a)); }
@@ -68,7 +69,7 @@ template <class Function>
   return cube * cube * cube * cube;
 }
 
-// The integral of f over [a, b], halved until the error of each part, error(length, rho^-12), is below the tolerance.
+// The integral of f over [a, b], which is halved until the error of each part, error(length, rho^-12), is at most the tolerance.
 template <class Function, class Error>
 [[nodiscard]] double graded(const Function& f, double a, double b, std::span<const std::complex<double>> singular, const Error& error,
                             double tolerance, int& asked) {
@@ -77,7 +78,7 @@ template <class Function, class Error>
   return graded(f, a, middle, singular, error, tolerance, asked) + graded(f, middle, b, singular, error, tolerance, asked);
 }
 
-// Integral of ln sqrt(x^2 + h^2) from 0 to x, without the term that does not know h.
+// Integral of ln sqrt(x^2 + h^2) from 0 to x, without the term -x, which does not depend on h.
 [[nodiscard]] HALFLIGHT_INLINE double half_potential(double x, double h) {
   const double square = x * x + h * h;
   return (square > 0.0 ? 0.5 * x * std::log(square) : 0.0) + h * std::atan2(x, h);
@@ -88,15 +89,15 @@ template <class Function, class Error>
   if (glm::dot(outer.direction, inner.direction) < 0.0) {
     outer = {outer.start + outer.length * outer.direction, -outer.direction, outer.length};
   }
-  // At s of the outer edge: x = x0 + s cosine along the inner one, h = |across + s turn|.
+  // At the point s of the outer edge: x = x0 + s cosine along the inner one, h = |across + s turn|.
   const double cosine = glm::dot(outer.direction, inner.direction);
   const glm::dvec3 d = outer.start - inner.start;
   const double x0 = glm::dot(d, inner.direction);
   const glm::dvec3 across = d - x0 * inner.direction;
   const glm::dvec3 turn = outer.direction - cosine * inner.direction;
   const auto distance = [&](double s) { return glm::length(across + s * turn); };
-  // The potential falls into two halves, one for each end of the inner edge, x and inner.length - x long. Each is given the h of the point
-  // beside its end, so that the change is 0 where it would jump.
+  // The potential is a sum of two halves, one for each end of the inner edge, of lengths x and inner.length - x. For each half h is taken
+  // at the point of the outer edge beside that end, so that the remaining change is 0 where it would jump.
   const double x1 = x0 + outer.length * cosine;
   const double h0 = distance(std::clamp(-x0 / cosine, 0.0, outer.length));
   const double h1 = distance(std::clamp((inner.length - x0) / cosine, 0.0, outer.length));
@@ -110,7 +111,7 @@ template <class Function, class Error>
     const double h = distance(s);
     return half_potential(x, h) - half_potential(x, h0) + half_potential(inner.length - x, h) - half_potential(inner.length - x, h1);
   };
-  // Where r is 0 at an end of the inner edge, and where h is.
+  // Singular points: where r is 0 at an end of the inner edge, and where h is 0.
   const auto end = [&](const glm::dvec3& p) {
     const double s = glm::dot(p - outer.start, outer.direction);
     return std::complex<double>{s, glm::length(outer.start + s * outer.direction - p)};
@@ -119,15 +120,15 @@ template <class Function, class Error>
   const std::array<std::complex<double>, 3> singular{
       end(inner.start), end(inner.start + inner.length * inner.direction),
       std::complex<double>{-glm::dot(across, turn) / square, glm::length(glm::cross(across, turn)) / square}};
-  // The rule is exact for linear functions; next to a point where the change has a bend, of pi sin(phi), it errs by less than a tenth of
-  // that times length^2. (The ellipse has the change grow as rho.)
+  // The rule is exact for linear functions. Near a point where the slope of the change jumps by pi sin(phi), its error is less than a
+  // tenth of that times length^2. (On the ellipse the change grows as rho, hence the exponent 11/12.)
   const auto error = [&](double length, double decay) {
     return 0.25 * sine * length * length * std::min(1.0, 25.0 * std::pow(decay, 11.0 / 12.0));
   };
   return parallel + graded(change, 0.0, outer.length, singular, error, tolerance, asked);
 }
 
-// Edges at an angle that is not small; `normal` is the cross product of their directions, `sine` its length.
+// Edges at an angle that is not small; `normal` is the cross product of their directions and `sine` its length.
 [[nodiscard]] HALFLIGHT_INLINE double oblique(const Edge& outer, const Edge& inner, const glm::dvec3& normal, double sine, double tolerance,
                                               int& asked) {
   const double cosine = glm::dot(outer.direction, inner.direction);
@@ -152,7 +153,7 @@ template <class Function, class Error>
       const double t = t0 - d * std::sinh(u) * cosine / sine;
       return std::atan2(h * inner.length, h * h + t * (t + inner.length));
     };
-    // Where r is 0 at an end of the inner edge: sinh(u) has the same value at i pi - u.
+    // Singular points: r is 0 at an end of the inner edge; sinh(u) has the same value at i pi - u.
     std::array<std::complex<double>, 4> singular;
     for (std::size_t k = 0; k < 2; ++k) {
       const double t = k == 0 ? t0 : t1;
@@ -173,8 +174,8 @@ HALFLIGHT_INLINE double edge_pair(const Edge& a, const Edge& b, double tolerance
   const glm::dvec3 normal = glm::cross(outer.direction, inner.direction);
   const double sine = glm::length(normal);
   if (sine < 0.02) { return nearly_parallel(outer, inner, sine, tolerance, asked); }
-  // The six-point rule errs by 7e-10 l^2 (l / x)^11 for the twelfth derivative, at the middle, of the potential of an edge in line with
-  // this one, x away from it; over the whole edge that is six times as much at most when x >= l.
+  // The six-point rule has the error 7e-10 l^2 (l / x)^11 if the twelfth derivative is taken at the middle, for the potential of a
+  // collinear edge at the distance x. Over the whole edge it is at most six times as large if x >= l.
   const glm::dvec3 apart = inner.start + 0.5 * inner.length * inner.direction - outer.start - 0.5 * outer.length * outer.direction;
   const double x = glm::length(apart) - 0.5 * inner.length;
   const double l2 = outer.length * outer.length;

@@ -1,24 +1,25 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The integral of ln r over two straight edges, of which the contour integral of two polygons is made (exchange.hpp). Edges may touch,
-// cross or overlap, and make any angle phi. Three ways; l is the shorter length, h the distance of a point of the shorter edge from the
-// line of the other one:
+// The integral of ln r over two straight edges; the contour integral of two polygons (exchange.hpp) is a sum of such integrals. Edges may
+// touch, cross or overlap, and make any angle phi. There are three methods; l is the shorter length, h the distance of a point of the
+// shorter edge from the line through the other one:
 //
-//   far            the six-point Gauss rule over the shorter edge, of the exact potential of the other one.
-//   sin phi < .02  the closed form of parallel edges, and what the angle changes. A change of h changes the potential of each half of the
-//                  other edge by at most pi/2 times as much, so all of it is below pi/2 sin(phi) l^2. Edges that are parallel except for
-//                  rounded coordinates need the closed form alone; else the change is integrated.
+//   far            six-point Gauss rule over the shorter edge, applied to the exact potential of the other one.
+//   sin phi < .02  closed form for parallel edges, plus the effect of the angle. A change of h changes the potential of each half of the
+//                  other edge by at most pi/2 times as much, so the effect is below pi/2 sin(phi) l^2. For edges that are parallel up to
+//                  rounding the closed form alone suffices; otherwise the change is integrated numerically.
 //   else           Euler's theorem on homogeneous functions. With s and t measured from the common perpendicular of the lines, d its
 //                  length, r^2 = s^2 + t^2 - 2 s t cos phi + d^2 and (s d/ds + t d/dt) ln r = 1 - d^2 / r^2; by Gauss's theorem
 //                    2 I = [s int ln r dt] + [t int ln r ds] - a b + d^2 int int ds dt / r^2.
 //                  The last integral is, over one edge, of an angle over h; with s = d / sin(phi) sinh(u), h = d cosh(u), it is that of
-//                  the angle over u. For edges in one plane nothing of it remains.
+//                  the angle over u. For edges in one plane (d = 0) it vanishes.
 //
-// What is integrated is analytic except for points beside the interval at which r or h is 0, and these are known. So it is known beforehand
-// which intervals are short enough for the Gauss rule; nothing is compared, and no noise can keep the bisection going.
+// The integrands are analytic except at known points outside the interval, where r or h is 0. So the error of the Gauss rule on an
+// interval is known beforehand, and intervals are halved until it is small enough. No values are compared, so rounding noise cannot keep
+// the bisection going.
 //
-// Lengths and coordinates are at most 1. Error: at most the tolerance, and 1e-13 of rounding.
+// Lengths and coordinates must be at most 1. Error: at most the tolerance plus 1e-13 of rounding.
 
 #include <glm/vec3.hpp>
 
@@ -30,10 +31,11 @@ struct Edge {
   double length = 0.0;
 };
 
-// Values of potentials and angles that one pair of edges may cost: at three points next to which intervals are halved some twenty times.
+// Upper bound of the evaluations of potentials and angles for one pair of edges: three singular points, near each of which intervals are
+// halved some twenty times.
 inline constexpr int most_asked = 500;
 
-// Integral of ln r over both edges; `asked` counts.
+// Integral of ln r over both edges; adds the number of evaluations to `asked`.
 [[nodiscard]] double edge_pair(const Edge& a, const Edge& b, double tolerance, int& asked);
 
 }  // namespace radiosity::detail

@@ -41,14 +41,14 @@ HALFLIGHT_INLINE std::vector<Edge> edges_of(std::span<const glm::dvec3> contour)
 HALFLIGHT_INLINE double contour_exchange(std::span<const glm::dvec3> p, std::span<const glm::dvec3> q, double scale, double tolerance) {
   const std::vector<Edge> a = edges_of(p);
   const std::vector<Edge> b = edges_of(q);
-  // Each pair of edges may err by its share.
+  // The tolerance is divided equally among the pairs of edges.
   const double share = 2.0 * std::numbers::pi * tolerance / (scale * scale * static_cast<double>(a.size() * b.size()));
   double sum = 0.0;
   int asked = 0;
   for (const Edge& e : a) {
     for (const Edge& f : b) {
-      // The unit of length falls out of the closed integrals; in units of the pair r is at most 1 and an edge has |int ln r| <= 1.7 (of
-      // length 1, r = 0 in its middle).
+      // Lengths are scaled so that r is at most 1; the scale cancels in closed contour integrals. An edge of length 1 then has
+      // |int ln r| <= 1.7 (the maximum, with r = 0 at its middle), which bounds pairs that can be skipped.
       const Edge es{(e.start - p[0]) / scale, e.direction, e.length / scale};
       const Edge fs{(f.start - p[0]) / scale, f.direction, f.length / scale};
       const double cosine = glm::dot(e.direction, f.direction);
@@ -66,7 +66,7 @@ HALFLIGHT_INLINE double contour_exchange(std::span<const glm::dvec3> p, std::spa
     const double sum = sum_of_kernel({p.normal, rule_p}, {q.normal, rule_q}, instruction_set());
     return std::max(0.0, sum / std::numbers::pi);
   }
-  double sum = 0.0;  // of faces with many corners
+  double sum = 0.0;  // for faces with many corners
   for (const QuadraturePoint& a : rule_p) {
     double row = 0.0;
     for (const QuadraturePoint& b : rule_q) {
@@ -105,9 +105,9 @@ HALFLIGHT_INLINE int above_horizon(const Patch& p, const Patch& q, double share)
 
 namespace detail {
 
-inline constexpr double near_extent = 0.6491;  // over distance: from here on the near rule is needed
+inline constexpr double near_extent = 0.6491;  // extent over distance above which the near rule is needed
 
-// From the light at the Gauss points of a patch (the weight included). Without light: none.
+// The linear fit to the light at the Gauss points of a patch (weights included); zero if there is no light.
 [[nodiscard]] HALFLIGHT_INLINE Variation variation(const Patch& patch, std::span<const double> light) {
   Variation result;
   double sum = 0.0;
@@ -130,7 +130,7 @@ inline constexpr double near_extent = 0.6491;  // over distance: from here on th
   return result;
 }
 
-// The light of the kernel at the Gauss points of both patches, in vectors of any length.
+// As below, for any number of Gauss points.
 [[nodiscard]] HALFLIGHT_INLINE Variations variations_of_many(const Patch& p, const Patch& q, double& square) {
   std::vector<double> light_p, light_q(q.rule3.size(), 0.0);
   std::vector<glm::dvec3> normal_q;
@@ -156,7 +156,8 @@ inline constexpr double near_extent = 0.6491;  // over distance: from here on th
   return {variation(p, light_p), variation(q, light_q), 0.0, sum};
 }
 
-// Without limits; `light` still times pi. `square`: of the kernel, with the weights of both points.
+// The variations before limiting; `light` is still to be divided by pi. `square` receives the sum of the squared kernel with
+// the weights of both points.
 [[nodiscard]] HALFLIGHT_INLINE Variations variations_of_kernel(const Patch& p, const Patch& q, double& square) {
   square = 0.0;
   if (!KernelPoints::fits(p.rule3) || !KernelPoints::fits(q.rule3)) { return variations_of_many(p, q, square); }
@@ -244,17 +245,19 @@ HALFLIGHT_INLINE Patch above(const Patch& patch, const Patch& other) {
   return most;
 }
 
-// Of patches that lie above each other's horizon. `known`: variations(p, q), if they are.
+// For patches that lie above each other's horizon. `known`: variations(p, q), if already computed.
 [[nodiscard]] HALFLIGHT_INLINE double facing_exchange(const Patch& p, const Patch& q, const Variations* known) {
-  // Extent over distance. Gauss rules of 2, 3, 4 points a side err by less than 6 (ratio/3)^4, 4 (ratio/3)^6, 3 (ratio/3)^8.
+  // Ratio: extent over distance. Gauss rules of 2, 3, 4 points a side have errors below 6 (ratio/3)^4, 4 (ratio/3)^6, 3 (ratio/3)^8.
   const double distance = glm::length(q.centre - p.centre);
   const double extent = p.radius + q.radius;
-  // Round ratios would be met as equalities by the patches of regular meshes, and rounding would choose the rule.
-  if (known != nullptr && !p.bent && !q.bent && extent < 0.3493 * distance) { return known->light; }  // of three points a side
+  // The limits are not round numbers, because patches of regular meshes often have round ratios, and rounding would then choose
+  // the rule.
+  // Summed by the rule of three points a side.
+  if (known != nullptr && !p.bent && !q.bent && extent < 0.3493 * distance) { return known->light; }
   if (extent < 0.0997 * distance) { return kernel_exchange(p, p.rule2, q, q.rule2); }
   if (extent < 0.3493 * distance) { return kernel_exchange(p, p.rule3, q, q.rule3); }
   if (extent < near_extent * distance) { return kernel_exchange(p, p.rule4, q, q.rule4); }
-  // Against a patch a thousand times its size a patch is hardly more than a point, and the difference of both contours cancels.
+  // A patch a thousand times smaller than the other is nearly a point, and the contour integrals would cancel almost completely.
   if (p.radius < 0.997e-3 * q.radius) { return point_exchange(p, q); }
   if (q.radius < 0.997e-3 * p.radius) { return point_exchange(q, p); }
   const double scale = extent + distance;
@@ -269,9 +272,10 @@ HALFLIGHT_INLINE double exchange(const Patch& p, const Patch& q, const Variation
   const int p_side = above_horizon(q, p);
   if (p_side < 0 || q_side < 0 || !(p.area > 0.0) || !(q.area > 0.0)) { return 0.0; }
   if (p_side > 0 && q_side > 0) { return detail::facing_exchange(p, q, known); }
-  // Faces that lie on each other cross at a tiny angle when their corners are rounded: what rises above the other by 1e-8 of the extent
-  // touches it. Contours with corners on a curved surface, or rounded ones, are not quite flat: what rises by no more than they do does not
-  // face the other (neighbours on a sphere), and what was cut may reach below the horizon by as much.
+  // Faces that lie on each other intersect at a tiny angle if their corners are rounded, so a part that rises by less than 1e-8 of the
+  // extent counts as touching. Contours on a curved surface, or with rounded corners, are not quite planar: a part that rises by no more
+  // than this unevenness does not face the other patch (neighbours on a sphere), and a clipped patch may reach below the horizon by as
+  // much.
   const Patch cut_p = detail::above(p, q);
   const Patch cut_q = detail::above(q, p);
   if (!(cut_p.area > 0.0) || !(cut_q.area > 0.0)) { return 0.0; }

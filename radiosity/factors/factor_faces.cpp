@@ -41,13 +41,13 @@ HALFLIGHT_INLINE bool hides(const Blocker& blocker, std::span<const glm::dvec3> 
   });
 }
 
-// Of two faces that see all of each other: by both contours unless they are far apart or of very different size (exchange.hpp).
+// For two faces that see each other completely: by both contours, unless they are far apart or differ much in size (exchange.hpp).
 [[nodiscard]] HALFLIGHT_INLINE Estimate clear_exchange(std::span<const glm::dvec3> p, std::span<const glm::dvec3> q) {
   const Patch a = make_patch({p.begin(), p.end()});
   const Patch b = make_patch({q.begin(), q.end()});
   const double distance = glm::length(b.centre - a.centre);
   const double extent = a.radius + b.radius;
-  if (extent < 0.0997 * distance) {  // by the first of the far rules: 6 (ratio / 3)^4
+  if (extent < 0.0997 * distance) {  // far rule with two points a side, whose error is 6 (ratio / 3)^4
     const double value = exchange(a, b);
     return {value, 1e-5 * value};
   }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Form factors between flat faces behind flat faces. What stands between two faces is found by the planes of their shaft (the convex hull
-// of both); where nothing does, the exchange is that of exchange.hpp. Where one of them hides all, it is 0. Else the exact factor from a
-// point to what it sees of the other face (shadow.hpp) is integrated over the smaller one (factor_integral.hpp).
+// Form factors between flat faces with flat blockers. Possible blockers are found with the planes of the shaft (the convex hull of both
+// faces). If there are none, the exchange is that of exchange.hpp; if one of them hides everything, it is 0. Otherwise the exact
+// point-to-polygon factor of the visible part of one face (shadow.hpp) is integrated over the smaller one (factor_integral.hpp).
 
 #include <cstdint>
 #include <span>
@@ -19,8 +19,8 @@ namespace radiosity {
 
 namespace detail {
 
-// Does the blocker stand in every segment between a corner of p and one of q? Then it does in all segments between the two: what it hides
-// of q from a point is convex, and so are the points of p from which it hides a corner of q.
+// Does the blocker meet every segment between a corner of p and a corner of q? Then it meets all segments between the two faces, because
+// the part of q that it hides from a point is convex, and so is the set of points of p from which it hides a given corner of q.
 [[nodiscard]] bool hides(const Blocker& blocker, std::span<const glm::dvec3> p, std::span<const glm::dvec3> q, double slack);
 
 }  // namespace detail
@@ -30,8 +30,8 @@ struct ConvexFace {
   glm::dvec3 normal{0.0};  // unit length
 };
 
-// The exchange of two convex faces behind blockers, in the squared unit of the coordinates. Those of the blockers that the shaft does not
-// meet are left out; `asked` counts the points, and stays where it was when nothing stands in between.
+// The exchange of two convex faces with blockers, in squared units of the coordinates. Blockers outside the shaft are ignored. `asked`:
+// counts the evaluated points; unchanged if nothing stands in between.
 [[nodiscard]] Estimate exchange(const ConvexFace& p, const ConvexFace& q, std::span<const Blocker> blockers, double slack,
                                 const IntegralLimits& limits, std::uint64_t& asked);
 

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The integral over a convex polygon of the light that its points receive between blockers, with an error that can be trusted.
+// Integrates, over a convex polygon, the light that its points receive past blockers, with a reliable error bound.
 //
-// Adaptive bisection with 3 x 3 Gauss points, the worst element first, gives six digits where these points have met all there is. But a
-// slit or a small blocker may lie between the points of an element, and then its parts agree on a wrong value. So fresh random points
-// compare the function with what the elements say of it; elements that prove wrong are refined, and other points are drawn. What n points
-// do not meet is, with a probability of 95 %, less than 3 / n of the whole (rule of three; Hanley and Lippman-Hand 1983). The points are
-// drawn by the light without blockers, so that is a share of the light. Elements that no blocker can change, or one hides, need no points.
+// Adaptive bisection with 3 x 3 Gauss points, the worst element first, gives six digits if these points have met every blocker. But a
+// slit or a small blocker may lie between the points of an element, whose parts then agree on a wrong value. So the function is compared
+// with the elements' polynomials at fresh random points; elements that prove wrong are refined, and new points are drawn. A deviation
+// that n points do not meet is, with probability 95 %, smaller than 3 / n of the whole (rule of three; Hanley and Lippman-Hand 1983); the
+// points are drawn in proportion to the unoccluded light, so that is a share of that light. Elements that no blocker can change, or that
+// one hides completely, need no points.
 
 #include <algorithm>
 #include <array>
@@ -25,24 +26,24 @@
 
 namespace radiosity {
 
-// A value and what it is uncertain by.
+// A value with its uncertainty.
 struct Estimate {
   double value = 0.0;
   double error = 0.0;
 };
 
-// When to stop; all but the points in units of the integral.
+// When to stop; `tolerance` and `wanted` are in units of the integral.
 struct IntegralLimits {
   double tolerance = 0.0;  // of the elements
-  double wanted = 0.0;     // of all, also of what the elements may have missed
-  std::uint64_t most = 0;  // points
+  double wanted = 0.0;     // total error, including what the elements may have missed
+  std::uint64_t most = 0;  // largest number of points
   std::uint64_t seed = 0;
 };
 
 namespace detail {
 
-// f(x) is the function, clear(x) its value without blockers; certain(corners) says whether on that part of the polygon no blocker makes a
-// difference, or one of them hides all.
+// f(x): the function; clear(x): its value without blockers; certain(corners): do blockers make no difference on that part of the polygon,
+// or does one of them hide everything?
 template <class Function, class Clear, class Certain>
 class Integral {
  public:
@@ -56,7 +57,7 @@ class Integral {
   }
 
   [[nodiscard]] Estimate run(std::uint64_t& asked) {
-    constexpr int start = 4;  // fine enough for most shadows to be noticed
+    constexpr int start = 4;  // fine enough that most shadows meet a Gauss point
     for (std::size_t quad = 0; quad < quads_.size(); ++quad) {
       for (int i = 0; i < start * start; ++i) { add(quad, (i % start) / 4.0, (i / start) / 4.0, 1.0 / start); }
     }
@@ -87,7 +88,7 @@ class Integral {
     double u, v, size;
     std::array<Samples, 4> quarter;
     double value, error;
-    std::int8_t certain;  // -1: not asked yet
+    std::int8_t certain;  // -1: not determined yet
   };
 
   [[nodiscard]] double gauss(std::size_t quad, double u0, double v0, double size, Samples& samples) {
@@ -133,7 +134,7 @@ class Integral {
     const Quad& quad = quads_[e.quad];
     return {quad.at(e.u, e.v), quad.at(e.u + e.size, e.v), quad.at(e.u + e.size, e.v + e.size), quad.at(e.u, e.v + e.size)};
   }
-  // The polynomial through the samples of the quarter that holds (s, t) in [0, 1]^2 of the element.
+  // The polynomial through the samples of the quarter that contains (s, t) in [0, 1]^2 of the element.
   [[nodiscard]] static double interpolated(const Element& e, double s, double t) {
     const std::size_t right = s >= 0.5;
     const std::size_t upper = t >= 0.5;
@@ -150,11 +151,11 @@ class Integral {
     return sum;
   }
 
-  // Compares the elements with fresh points, in number by what the blockers could hide at most. Elements that err by more than a fiftieth
-  // of the wanted error are marked.
+  // Compares the elements with fresh points, whose number depends on how much light blockers could hide. Elements that are off by more
+  // than a fiftieth of the wanted error are marked for refinement.
   [[nodiscard]] Estimate compare(std::uint32_t round) {
     Estimate result;
-    std::vector<double> cumulative;  // of the light without blockers of the elements that are not certain
+    std::vector<double> cumulative;  // unoccluded light of the elements that are not certain
     std::vector<double> unblocked;
     double light = 0.0;
     for (Element& e : elements_) {
@@ -168,7 +169,7 @@ class Integral {
     }
     wrong_ = false;
     if (!(light > 0.0)) { return result; }
-    // Half of them are rejected below, and what is left open is to be half of the wanted error.
+    // About half of the points are rejected below, and the remaining uncertainty is to be half of the wanted error.
     const auto points = static_cast<std::uint32_t>(std::clamp(13.0 * light / limits_.wanted, 128.0, static_cast<double>(limits_.most)));
     const Sobol4 sequence{limits_.seed, round};
     double met = 0.0;
@@ -181,7 +182,7 @@ class Integral {
       Element& e = elements_[k];
       const Quad part = corners(e);
       const double area = part.area_element(0.5, 0.5, normal_);
-      // Evenly over the area: the area element is linear, at most twice its mean.
+      // Rejection sampling, uniform by area: the area element is linear and at most twice its mean.
       if (!(unblocked[k] > 0.0) || 2.0 * area * x[3] > part.area_element(x[1], x[2], normal_)) { continue; }
       const double difference = (*f_)(part.at(x[1], x[2])) - interpolated(e, x[1], x[2]);
       const double share = difference * light / unblocked[k];
@@ -197,7 +198,7 @@ class Integral {
     if (!(met > 1.0)) { return {result.value, result.error + light}; }
     const double mean = sum / met;
     const double spread = std::sqrt(std::max(0.0, square / met - mean * mean) / (met - 1.0));
-    if (wrong_) { result.value += mean; }  // unbiased: these points have had no part in the elements
+    if (wrong_) { result.value += mean; }  // unbiased, because these points did not influence the elements
     result.error += (wrong_ ? 0.0 : std::abs(mean)) + 2.0 * spread + 3.0 * light / met;
     return result;
   }

@@ -73,7 +73,7 @@ HALFLIGHT_INLINE ObjectMesh mesh_of(const raycast::PlacedObject& object, double 
   return sum;
 }
 
-// Does every patch lie below the horizon of each of the others, or they below its own, by more than `reach`?
+// Does each pair of patches face away from each other: does one lie below the horizon of the other by more than `reach`?
 [[nodiscard]] HALFLIGHT_INLINE bool face_away(const std::vector<Patch>& p, const std::vector<Patch>& q, double reach) {
   const auto below = [&](const Patch& a, const Patch& b) {
     return std::all_of(b.contour.begin(), b.contour.end(),
@@ -118,10 +118,10 @@ HALFLIGHT_INLINE void make_meshes(const raycast::PlacedObject& object, std::span
 
 HALFLIGHT_INLINE Estimate free_exchange(const RowMeshes& p, const RowMeshes& q, bool same_object) {
   const double finest = detail::exchange_of(p.level[2], q.level[2]);
-  Estimate result{finest, 1e-5 * finest};  // of the quadrature: exchange.hpp, mostly far below
+  Estimate result{finest, 1e-5 * finest};  // quadrature error (exchange.hpp), mostly far smaller
   if (!(finest > 0.0)) {
-    // A cap of height e rises above the horizon of the mesh: of a sphere of radius r it has the area 2 pi r e, and its slope, the square of
-    // which bounds what it sees, is below sqrt(2 e / r).
+    // On the true surface a cap of height e may rise above the horizon of the mesh. On a sphere of radius r its area is 2 pi r e and its
+    // slope below sqrt(2 e / r), whose square bounds the form factor of what it sees.
     const double reach = std::max(p.reach, q.reach);
     return {0.0, detail::face_away(p.level[2], q.level[2], reach) ? 0.0 : 4.0 * std::numbers::pi * reach * reach};
   }
@@ -140,7 +140,7 @@ HALFLIGHT_INLINE Estimate free_exchange(const RowMeshes& p, const RowMeshes& q, 
   if (p.curved()) { by_p = take(detail::exchange_of(p.level[0], q.level[2]), detail::exchange_of(p.level[1], q.level[2]), p); }
   if (q.curved()) { by_q = take(detail::exchange_of(p.level[2], q.level[0]), detail::exchange_of(p.level[2], q.level[1]), q); }
   if (p.curved() && q.curved()) {
-    // Nearly touching, both lose light at the same places.
+    // Where both nearly touch, both corrections count light at the same places.
     const double both = finest - by_p - by_q + detail::exchange_of(p.level[1], q.level[1]);
     const double change = both / (std::min(p.ratio[1], q.ratio[1]) - 1.0);
     result.value -= change;

@@ -56,7 +56,7 @@ HALFLIGHT_INLINE void RayCounter::extend(std::uint64_t lines, unsigned threads) 
     }
   };
   parallel_for(workers, threads, work, 1);
-  for (const RayCounts& part : parts) {  // integers: any order gives the same
+  for (const RayCounts& part : parts) {  // integers, so the order of addition does not matter
     for (std::size_t i = 0; i < part.begun.size(); ++i) { counts_.begun[i] += part.begun[i]; }
     for (std::size_t i = 0; i < part.hits.size(); ++i) { counts_.hits[i] += part.hits[i]; }
   }
@@ -103,7 +103,7 @@ HALFLIGHT_INLINE RayCounter::Mean RayCounter::mean_of(const std::array<double, s
   double square = 0.0;
   for (const double v : values) { sum += v / n; }
   for (const double v : values) { square += (v - sum) * (v - sum); }
-  // Half of a 95 % interval of Student's distribution with 15 degrees of freedom.
+  // Half of the 95 % interval of Student's distribution with 15 degrees of freedom.
   return {sum, 0.5 * 2.1314 * std::sqrt(square / (n * (n - 1.0)))};
 }
 
@@ -159,8 +159,8 @@ HALFLIGHT_INLINE raycast::Segment RayCounter::line_of(const std::array<double, 4
   while (axis < 2 && rest >= side_[static_cast<std::size_t>(axis)]) { rest -= side_[static_cast<std::size_t>(axis++)]; }
   const double share = side_[static_cast<std::size_t>(axis)];
   double a = std::clamp(share > 0.0 ? rest / share : 0.0, 0.0, 1.0);
-  // Which of the two sides does not matter: a line through one leaves by another, and it has no direction. One half of the sides
-  // with all directions is as good as all sides with those inwards.
+  // Opposite sides need not be distinguished: lines have no orientation, and a line that enters through one side leaves through another.
+  // So half of each side with all directions is equivalent to all sides with directions inwards.
   const glm::dvec3 size = box.size();
   glm::dvec3 x = box.lo;
   glm::dvec3 n{0.0};

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Form factors on the true surfaces, by rays: from points spread evenly over what is exposed of an object, in directions that follow the
-// cosine, it is counted where they arrive first. Sixteen independently scrambled Sobol sequences give sixteen estimates; their mean is the
-// result and their spread its standard error. In a closed scene every ray arrives, so the row of each sequence sums to 1.
+// Form factors on the true surfaces, by rays: from points uniformly distributed over the exposed area of an object, in cosine-distributed
+// directions, the first hits are counted by surface. Sixteen independently scrambled Sobol sequences give sixteen estimates; their mean
+// is the result, and their spread gives its standard error. In a closed scene every ray hits something, so the row of each sequence sums
+// to 1.
 //
-// Where the rays begin. On flat faces: points of the faces. On anything else: lines spread evenly over all lines that meet the object's
-// bounds. What crosses a surface is evenly distributed over its area and follows the cosine (Cauchy 1841, Crofton 1868), whatever the
-// shape, so spans are all that is asked of an object; the number of crossings gives its area.
+// Origins of the rays. On flat faces: points of the faces. On other objects: crossings with lines that are uniformly distributed over all
+// lines through the object's bounds. Such crossings are uniform over the area and cosine-distributed (Cauchy 1841, Crofton 1868) for any
+// shape, so an object needs to provide only spans. The number of crossings gives the area.
 
 #include <algorithm>
 #include <array>
@@ -32,43 +33,43 @@ struct Facet {
   double area = 0.0;
 };
 
-// Where rays begin, and what their first hits count for.
+// Where rays begin, and to which rows their first hits are counted.
 struct RaySource {
   std::uint32_t object = 0;
-  bool may_be_covered = false;          // points must be asked whether they are exposed
-  std::span<const Facet> facets;        // when flat; else lines through the object's bounds
-  std::uint32_t row = 0;                // of the facets
-  std::span<const std::uint32_t> rows;  // of the sheets of the object, when there are no facets
+  bool may_be_covered = false;          // must points be tested for being exposed?
+  std::span<const Facet> facets;        // of a flat object; if empty, lines through the object's bounds are used
+  std::uint32_t row = 0;                // row of the facets
+  std::span<const std::uint32_t> rows;  // rows of the object's sheets, if there are no facets
 };
 
 inline constexpr std::size_t sequences = 16;
 
-// Counts of one source, by sequence: [sequence * rows + row].
+// Counts of one source. `begun` is indexed by [sequence * rows + row].
 struct RayCounts {
-  std::uint64_t lines = 0;           // or points, of one sequence
-  std::vector<std::uint64_t> begun;  // at exposed points of each row
-  std::vector<std::uint64_t> hits;   // [(sequence * source rows + source row) * rows + row]; source rows in the order of first_row
+  std::uint64_t lines = 0;           // lines or points cast so far, by each sequence
+  std::vector<std::uint64_t> begun;  // rays from exposed points of each row
+  std::vector<std::uint64_t> hits;   // [(sequence * source rows + source row) * rows + row]; source rows count from first_row
 };
 
 class RayCounter {
  public:
-  // `row_of[object][sheet]`; rows are numbered without gaps and there are `rows` of them. The rows of a source lie side by side.
+  // `row_of[object][sheet]`: rows are numbered 0 to `rows` - 1 without gaps. The rows of a source are consecutive.
   RayCounter(const raycast::Scene& scene, const std::vector<std::vector<std::uint32_t>>& row_of, const RaySource& source,
              std::uint32_t first_row, std::uint32_t source_rows, std::uint32_t rows, std::uint64_t seed);
 
-  // Casts until each sequence has gone through `lines` points.
+  // Casts until each sequence has used `lines` points.
   void extend(std::uint64_t lines, unsigned threads);
 
   struct Mean {
     double value = 0.0, error = 0.0;
   };
-  // The factor from a row of the source to another; the error is half of a 95 % interval. The spread of sixteen numbers says little of a
-  // handful of rays that arrive, or do not, and nothing of none: with k of them, k + 2 + 2 sqrt(k) is about the upper end of the 95 %
-  // interval of a Poisson distribution (3 when there are none: the rule of three). From sixteen on, one a sequence, the spread counts.
+  // The factor from a row of the source to another one; the error is half of a 95 % interval. If only k < 16 rays arrive, the spread of
+  // sixteen numbers says little, so k + 2 + 2 sqrt(k) is used, about the upper end of the 95 % interval of a Poisson distribution (3 if
+  // k = 0: the rule of three). From sixteen rays on, one a sequence, the spread is used.
   [[nodiscard]] Mean factor(std::uint32_t from, std::uint32_t to) const;
   // The sum of all factors from a row.
   [[nodiscard]] Mean sum(std::uint32_t from) const;
-  // Rays from exposed points of a row.
+  // Number of rays cast from exposed points of a row.
   [[nodiscard]] std::uint64_t rays(std::uint32_t from) const;
   // The exposed area of a row.
   [[nodiscard]] Mean area(std::uint32_t from) const;
@@ -93,11 +94,11 @@ class RayCounter {
 
   void cast(std::size_t s, const std::array<double, 4>& u, RayCounts& counts) const;
 
-  // A point of the facet, continuous in both arguments; `rest` is an area.
+  // Maps to a point of the facet, continuously in both arguments; `rest`: an area, from 0 to that of the facet.
   [[nodiscard]] static glm::dvec3 point_of(const Facet& facet, double rest, double v);
 
-  // A line through the bounds of the object, evenly over all of them: an even point of the six sides, a cosine direction inwards. Its
-  // length is the diameter of the scene.
+  // A line through the bounds of the object, uniformly distributed over all such lines: a uniform point of the six sides and a
+  // cosine-distributed direction inwards. Its length is the diameter of the scene.
   [[nodiscard]] raycast::Segment line_of(const std::array<double, 4>& u) const;
 
   void begin(std::size_t s, std::uint32_t row, const glm::dvec3& x, const glm::dvec3& direction, const glm::dvec3& normal,

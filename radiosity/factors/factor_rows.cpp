@@ -81,7 +81,7 @@ HALFLIGHT_INLINE std::vector<FlatFace> flat_faces(const std::vector<Surface>& su
 
 namespace detail {
 
-// What covers a face, or lies in front of it without a gap, by one other object.
+// Removes the parts of a face that one other object covers, contains, or touches without a gap.
 class Burial {
  public:
   Burial(const raycast::Scene& scene, const std::vector<FlatFace>& faces, double slack) : scene_{&scene}, slack_{slack} {
@@ -89,7 +89,7 @@ class Burial {
     for (const FlatFace& face : faces) { faces_of_[face.object].push_back(&face); }
   }
 
-  // Takes from the pieces of `face` what object `by` buries. False when that is not done exactly.
+  // Removes from `pieces` of `face` the parts buried by object `by`. Returns false if that cannot be done exactly.
   [[nodiscard]] bool apply(const FlatFace& face, std::uint32_t by, std::vector<Piece>& pieces) const {
     const raycast::PlacedObject& object = scene_->object(by);
     raycast::Box bounds;
@@ -107,7 +107,7 @@ class Burial {
     for (const FlatFace* other : faces_of_[by]) { cover(face, *other, pieces); }
     if (!object.solid()) { return true; }
     if (!object.convex()) { return !pierced(face, by); }
-    std::vector<HalfSpace> planes;  // of the body, inwards; of a room, of the space in it
+    std::vector<HalfSpace> planes;  // inward planes of the body; of a room, of the space in it
     for (const FlatFace* other : faces_of_[by]) {
       const glm::dvec3 inwards = object.inside() ? other->normal : -other->normal;
       planes.push_back({other->contour[0] + (object.inside() ? -slack_ : slack_) * inwards, inwards});
@@ -130,7 +130,7 @@ class Burial {
   }
 
  private:
-  // A coplanar face of a later object that faces the same way, or of a solid that stands on this one.
+  // Removes what a coplanar face covers: of a later object if it faces the same way, or of a solid that stands on this face.
   void cover(const FlatFace& face, const FlatFace& other, std::vector<Piece>& pieces) const {
     const double cosine = glm::dot(face.normal, other.normal);
     const bool covers = cosine > 0.999 ? other.object > face.object : cosine < -0.999 && scene_->object(other.object).solid();
@@ -146,7 +146,7 @@ class Burial {
     }
     cut_away(pieces, planes);
   }
-  // Has the face a part within the box?
+  // Does a part of the face lie within the box?
   [[nodiscard]] static bool touches(const FlatFace& face, const raycast::Box& box) {
     Piece rest;
     Piece outside;
@@ -160,7 +160,7 @@ class Burial {
     }
     return !rest.empty();
   }
-  // Does the concave solid cut the face: is an edge of the face partly inside it, or does an edge of it pass through the face?
+  // Does the concave solid cut the face? That is: is an edge of the face partly inside it, or does one of its edges pass through the face?
   [[nodiscard]] bool pierced(const FlatFace& face, std::uint32_t by) const {
     const std::size_t n = face.contour.size();
     for (std::size_t i = 0; i < n; ++i) {
@@ -195,7 +195,7 @@ class Burial {
     }
     return false;
   }
-  // Is a point that lies inside or on the solid away from all its planes?
+  // Is a point inside or on the solid away from the planes of all its faces?
   [[nodiscard]] bool deep(std::uint32_t by, const glm::dvec3& p) const {
     return std::all_of(faces_of_[by].begin(), faces_of_[by].end(),
                        [&](const FlatFace* f) { return std::abs(glm::dot(f->normal, p - f->contour[0])) > slack_; });
@@ -223,7 +223,7 @@ HALFLIGHT_INLINE void expose(FactorRows& rows, const raycast::Scene& scene, cons
       if (area > slack * slack) { row.facets.push_back({piece, face.normal, area}); }
     }
   }
-  // What was cut before a row proved not to be exact is made whole again.
+  // Restores rows that turned out not to be exact after some of their faces had been cut.
   for (FactorRow& row : rows.rows) {
     if (!row.exact) { row.facets.clear(); }
   }

@@ -57,7 +57,7 @@ HALFLIGHT_INLINE bool FactorRun::curved_between(const FactorRow& a, const Factor
 
 HALFLIGHT_INLINE void FactorRun::by_faces() {
   const std::size_t n = rows.rows.size();
-  constexpr std::size_t most_facets = 4096;  // pairs of facets in a pair of rows; beyond that rays are faster
+  constexpr std::size_t most_facets = 4096;  // per pair of rows; with more, rays are faster
   constexpr std::size_t most_blockers = 1024;
   exchange.resize(n * n);
   std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
@@ -77,7 +77,8 @@ HALFLIGHT_INLINE void FactorRun::by_faces() {
         const FactorRow& a = rows.rows[i];
         const FactorRow& b = rows.rows[j];
         if (curved_between(a, b)) { return; }
-        // Of the larger factor of the two. What random points leave open of pairs of facets adds up like random errors.
+        // Errors are relative to the larger one of the two factors. The uncertainties of random points add up over the pairs of
+        // facets like independent errors.
         const double unit = std::min(area[i].value, area[j].value) /
                             std::sqrt(static_cast<double>(std::max<std::size_t>(1, a.facets.size() * b.facets.size())));
         IntegralLimits limits{std::min(0.1 * options.error, 1e-6) * unit, options.error * unit, 200'000,
@@ -111,7 +112,7 @@ HALFLIGHT_INLINE bool FactorRun::stands_free(const FactorRow& row) const {
     const raycast::PlacedObject& other = scene.object(o);
     const bool apart = glm::any(glm::lessThan(box.hi, other.bounds().lo)) || glm::any(glm::lessThan(other.bounds().hi, box.lo));
     if (!other.inside()) {
-      // In a room the other object stands, not on it.
+      // Allowed: the other object stands inside this room, away from its walls.
       const bool within = object.inside() && clear_of_walls(object, other.bounds());
       if (!apart && !within) { return false; }
     } else if (object.inside() || !other.convex() || !clear_of_walls(other, box)) {
@@ -125,7 +126,7 @@ HALFLIGHT_INLINE bool FactorRun::clear_of_walls(const raycast::PlacedObject& roo
   for (int c = 0; c < 8; ++c) {
     const glm::dvec3 p{c & 1 ? box.hi.x : box.lo.x, c & 2 ? box.hi.y : box.lo.y, c & 4 ? box.hi.z : box.lo.z};
     raycast::Spans spans;
-    const raycast::Segment along{p, {1.0, 0.0, 0.0}};  // t is a length
+    const raycast::Segment along{p, {1.0, 0.0, 0.0}};  // unit direction, so t is a length
     room.spans(along, spans);
     for (const raycast::Span& span : spans) {
       if (span.in.t <= slack && span.out.t >= -slack) { return false; }
@@ -205,7 +206,7 @@ HALFLIGHT_INLINE std::vector<std::shared_ptr<RayCounter>> FactorRun::by_rays() {
     }
     bool needed = false;
     for (std::uint32_t k = i; k < end; ++k) { needed = needed || needs_rays(k); }
-    if (needed && !(row.exact && row.facets.empty())) {  // exact without facets: all buried
+    if (needed && !(row.exact && row.facets.empty())) {  // exact without facets: completely buried
       RaySource source{row.object, !row.exact && may_be_covered(row.object), row.facets, i, rows.row_of[row.object]};
       auto counter = std::make_shared<RayCounter>(scene, rows.row_of, source, i, end - i, n, options.seed);
       run(*counter, i, end);
@@ -225,8 +226,8 @@ HALFLIGHT_INLINE void FactorRun::run(RayCounter& counter, std::uint32_t first, s
     counter.extend(lines, thread_count(options.threads));
     bool enough = true;
     for (std::uint32_t i = first; i < end; ++i) {
-      if (counter.rays(i) == 0) { continue; }  // buried
-      // Where the area comes from the rays, too, its error is a part of that of the factors.
+      if (counter.rays(i) == 0) { continue; }  // the row is buried
+      // If the area comes from the rays, too, its error adds to that of the factors.
       const RayCounter::Mean by_rays = counter.area(i);
       const double relative = rows.rows[i].exact || area[i].error > 0.0 ? 0.0 : by_rays.error / by_rays.value;
       for (std::uint32_t j = 0; j < rows.rows.size(); ++j) {
@@ -245,7 +246,7 @@ HALFLIGHT_INLINE bool FactorRun::may_be_covered(std::uint32_t object) const {
     if (o == object) { continue; }
     const raycast::Box& other = scene.object(o).bounds();
     if (scene.object(o).inside()) {
-      // Well inside the bounds of a convex room one may still be in its corners.
+      // Even an object well inside the bounds of a convex room may be outside the room near its corners.
       return true;
     }
     if (glm::all(glm::lessThanEqual(box.lo, other.hi)) && glm::all(glm::lessThanEqual(other.lo, box.hi))) { return true; }
@@ -265,7 +266,8 @@ HALFLIGHT_INLINE Estimate weighted(const std::vector<std::shared_ptr<RayCounter>
     const RayCounter::Mean f = counters[from]->factor(from, to);
     const double rays = static_cast<double>(counters[from]->rays(from));
     const double spread = std::hypot(f.error * area[from].value, f.value * area[from].error);
-    // Sixteen numbers do not tell their own spread well; even points are hardly ever better than random ones by more than four times.
+    // The variance estimated from sixteen numbers is itself uncertain. So a sixteenth of the variance of random sampling is added,
+    // because low-discrepancy points hardly ever reduce the error by more than four times.
     const double random = area[from].value * std::sqrt(f.value * std::max(0.0, 1.0 - f.value) + 1.0 / rays) / std::sqrt(rays);
     const double weight = 1.0 / (spread * spread + random * random / 16.0);
     result.value += weight * f.value * area[from].value;

@@ -33,7 +33,7 @@ inline constexpr std::size_t most_surfaces = 2000;
 
 namespace detail {
 
-// The rows of the result: one a sheet. A sheet that was cut away whole has no row; one that is buried has a row and area 0.
+// The rows of the result. A sheet of which nothing is left after cutting has no row; a buried sheet has a row with area 0.
 HALFLIGHT_INLINE std::vector<std::uint32_t> kept_rows(const FactorRun& run) {
   std::vector<bool> exists(run.area.size(), false);
   for (std::uint32_t o = 0; o < run.prepared.surfaces.size(); ++o) {
@@ -49,7 +49,7 @@ HALFLIGHT_INLINE std::vector<std::uint32_t> kept_rows(const FactorRun& run) {
   return kept;
 }
 
-// The factors of both ends of each pair of kept rows, from their one exchange.
+// Writes both factors of each pair of kept rows from their common exchange.
 HALFLIGHT_INLINE void write_factors(const FactorRun& run, const std::vector<std::shared_ptr<RayCounter>>& counters,
                                     const std::vector<std::uint32_t>& kept, Factors& result) {
   const std::size_t m = kept.size();
@@ -75,7 +75,7 @@ HALFLIGHT_INLINE void write_factors(const FactorRun& run, const std::vector<std:
   }
 }
 
-// Names, areas and row sums of the kept rows, when their factors are known.
+// Writes names, areas and row sums of the kept rows; the factors must be known.
 HALFLIGHT_INLINE void write_surfaces(const FactorRun& run, const std::vector<std::uint32_t>& kept, Factors& result) {
   const double unit = run.prepared.frame.to_scene_area(1.0);
   const std::size_t m = kept.size();

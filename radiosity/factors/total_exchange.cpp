@@ -19,8 +19,8 @@ namespace radiosity {
 
 namespace detail {
 
-// Of a symmetric matrix, row by row, its lower triangle in place; false when it is not positive definite: when a pivot loses all but 1e-12
-// of its diagonal entry.
+// Cholesky factor of a symmetric matrix stored row by row; overwrites its lower triangle. Returns false if the matrix is not positive
+// definite: if a pivot is below 1e-12 of its diagonal entry.
 [[nodiscard]] HALFLIGHT_INLINE bool cholesky(std::vector<double>& a, std::size_t n) {
   for (std::size_t i = 0; i < n; ++i) {
     const double diagonal = a[i * n + i];
@@ -50,7 +50,7 @@ HALFLIGHT_INLINE void add_product(const std::vector<double>& a, const std::vecto
   }
 }
 
-// The matrices of total_exchange.hpp on their way to K: row by row, n x n.
+// The matrices of total_exchange.hpp during the computation of K: n x n, row by row.
 struct ExchangeMatrices {
   const Factors& factors;
   std::span<const double> emissivity;
@@ -59,7 +59,7 @@ struct ExchangeMatrices {
   std::vector<double> variance = std::vector<double>(n * n, 0.0);  // of the entries of `exchange`
   std::vector<double> system = std::vector<double>(n * n, 0.0);    // T, then its Cholesky factor
 
-  // What is buried has no area and takes no part.
+  // A buried surface has no area and takes no part; 1 avoids a division by 0.
   [[nodiscard]] double area(std::size_t i) const { return factors.surfaces[i].area.value > 0.0 ? factors.surfaces[i].area.value : 1.0; }
   [[nodiscard]] double root(std::size_t i) const { return std::sqrt(1.0 - emissivity[i]); }
 
@@ -67,18 +67,18 @@ struct ExchangeMatrices {
   void fill() {
     for (std::size_t i = 0; i < n; ++i) {
       for (std::size_t j = 0; j < n; ++j) {
-        // Both ends know the same exchange; their quotients by the areas differ by rounding.
+        // Both rows of a pair store the same exchange; their products with the areas differ by rounding, so one of them is used.
         const std::size_t from = std::min(i, j);
         const std::size_t to = std::max(i, j);
         exchange[i * n + j] = area(from) * factors(from, to).value;
         const double error = std::max(area(i) * factors(i, j).error, area(j) * factors(j, i).error);
-        variance[i * n + j] = error * error * (i == j ? 1.0 : 2.0);  // G_ij and G_ji err together
+        variance[i * n + j] = error * error * (i == j ? 1.0 : 2.0);  // G_ij and G_ji have the same error
         system[i * n + j] = (i == j ? area(i) : 0.0) - root(i) * exchange[i * n + j] * root(j);
       }
     }
   }
 
-  // After the Cholesky step: adds to G all that arrives after reflections, W^T W.
+  // After the Cholesky step: adds to G the light that arrives after reflections, W^T W.
   void add_reflected() {
     std::vector<double> w(n * n, 0.0);
     for (std::size_t i = 0; i < n; ++i) {
@@ -98,7 +98,7 @@ struct ExchangeMatrices {
     }
   }
 
-  // From the variances of G to those of K, by the squares of the entries of P and of its transpose.
+  // Propagates the variances of G to those of K, with the squared entries of P and of its transpose.
   void carry_variances() {
     std::vector<double>& p = system;  // no longer needed
     std::vector<double> transposed(n * n, 0.0);

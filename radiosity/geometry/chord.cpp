@@ -38,7 +38,7 @@ HALFLIGHT_INLINE std::optional<ChordPoint> chord_point(const ChordTriangle& tria
     const double step = -glm::dot(from_a, normal) / slope;
     if (!std::isfinite(step)) { return std::nullopt; }
     s += step;
-    found = std::abs(step) <= 1e-9 * size;  // what is left is the square of it
+    found = std::abs(step) <= 1e-9 * size;  // Newton converges quadratically: the remaining error is about the square of the step
   }
   return std::nullopt;
 }

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Between a curved surface and the triangles that stand for it: which point of a triangle is meant by a point of the surface?
+// Maps a point of a curved surface to the corresponding point of the triangle that approximates the surface there.
 //
-// Moving the three corners along the surface's normals there by a common offset s sweeps a prism; a point x of it lies in the triangle
-// of one offset, and its barycentric coordinates there are those of x. Triangles that share an edge and its two normals share the ruled
-// wall between their prisms, on which both give the same coordinates: what is interpolated by them is continuous over the true surface,
-// and exact at the corners. (A nearest point on the mesh would neither be unique where the mesh is concave, nor would it move while x
-// passes over a convex edge.) On a plane it is the foot of the perpendicular.
+// Moving the three corners along the surface normals by a common offset s sweeps a prism. A point x of the prism lies in the triangle of
+// one offset; its barycentric coordinates in that triangle are those of x. Triangles that share an edge and its two normals share the
+// ruled wall between their prisms, on which both give the same coordinates. So values interpolated with these coordinates are continuous
+// over the true surface, and exact at the corners. (The nearest point on the mesh would not be unique where the mesh is concave, and
+// would not move while x passes over a convex edge.) On a plane the result is the foot of the perpendicular.
 //
-// The offset is a root of (x - a(s)) . N(s), cubic in s, with a(s) the moved corner and N(s) the normal of the moved triangle. The
-// root that belongs to the surface lies near 0 and is found by Newton's method from there.
+// The offset is a root of (x - a(s)) . N(s), which is cubic in s, with a(s) the moved corner and N(s) the normal of the moved triangle.
+// The root that belongs to the surface lies near 0 and is found by Newton's method starting there.
 
 #include <algorithm>
 #include <array>
@@ -26,18 +26,18 @@ struct ChordTriangle {
 };
 
 struct ChordPoint {
-  glm::dvec3 weight{0.0};  // barycentric; they sum to 1, and a negative one says that the point is outside
+  glm::dvec3 weight{0.0};  // barycentric coordinates, summing to 1; a negative one means that the point lies outside
   double offset = 0.0;     // along the interpolated normal
 
-  // How far inside: the smallest weight.
+  // The smallest weight: positive inside, negative outside.
   [[nodiscard]] double depth() const { return std::min({weight.x, weight.y, weight.z}); }
 };
 
-// The point of the triangle that stands for x. Nothing when the triangle has no area or there is no such offset near 0.
+// The point of the triangle that corresponds to x. Nothing if the triangle has no area or no such offset near 0 exists.
 [[nodiscard]] std::optional<ChordPoint> chord_point(const ChordTriangle& triangle, const glm::dvec3& x);
 
-// The barycentric coordinates of the point of the flat triangle that is nearest to x (none of them negative). A triangle without area
-// is its longest edge.
+// The barycentric coordinates, none negative, of the point of the flat triangle that is nearest to x. A triangle without area is treated
+// as its longest edge.
 [[nodiscard]] glm::dvec3 nearest_in_triangle(const std::array<glm::dvec3, 3>& p, const glm::dvec3& x);
 
 }  // namespace radiosity

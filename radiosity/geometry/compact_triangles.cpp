@@ -28,11 +28,11 @@ HALFLIGHT_INLINE std::vector<std::array<glm::dvec3, 3>> compact_triangles(const 
     const double ab = glm::length(b - a), bc = glm::length(c - b), ca = glm::length(a - c);
     const double longest = std::max({ab, bc, ca});
     const double area = 0.5 * glm::length(glm::cross(b - a, c - a));
-    if (!(area > 0.0) || longest * longest <= 8.0 * area) {  // a right triangle of two equal legs has 4
+    if (!(area > 0.0) || longest * longest <= 8.0 * area) {  // this ratio is 4 for an isosceles right triangle
       ++k;
       continue;
     }
-    while (glm::length(b - a) < longest) {  // now a b is the longest
+    while (glm::length(b - a) < longest) {  // rotate until a b is the longest side
       const glm::dvec3 first = a;
       a = b;
       b = c;

@@ -12,7 +12,7 @@ namespace radiosity {
 
 namespace detail {
 
-// Triangles that are hardly longer than wide: needles are halved across their longest edge, into 4096 pieces at most.
+// Cuts the faces into triangles and halves needles across their longest edge until none is much longer than wide, into at most 4096 pieces.
 [[nodiscard]] std::vector<std::array<glm::dvec3, 3>> compact_triangles(const std::vector<Polygon>& faces);
 
 }  // namespace detail

@@ -20,10 +20,10 @@ namespace radiosity {
 
 namespace detail {
 
-inline constexpr std::uint32_t photon_grids = 4;          // each with cells twice as wide as those before
-inline constexpr double finest_photon_cell = 1.0 / 64.0;  // of the diameter of the scene
-inline constexpr double most_trust = 0.875;               // the rest is for sources that shine past an edge
-inline constexpr std::size_t least_photons = 16;          // in a cell that is asked
+inline constexpr std::uint32_t photon_grids = 4;          // each with cells twice as wide as the one before
+inline constexpr double finest_photon_cell = 1.0 / 64.0;  // relative to the diameter of the scene
+inline constexpr double most_trust = 0.875;               // below 1, because photons may miss sources that shine past an edge
+inline constexpr std::size_t least_photons = 16;          // least number of photons in a cell that is used
 
 [[nodiscard]] HALFLIGHT_INLINE std::uint64_t photon_cell(std::uint32_t grid, double width, const glm::dvec3& position,
                                                          const glm::dvec3& normal) {
@@ -58,7 +58,8 @@ HALFLIGHT_INLINE PhotonGrid::PhotonGrid(std::span<const Photon> photons, double 
       if (i == first || entries[i].second != entries[i - 1].second) { shares_.push_back({entries[i].second, 0.0}); }
       shares_.back().share += 1.0 / photons_here;
     }
-    // A next photon comes from a source that has none here about as often as one of these has just one (Good 1953).
+    // The probability that the next photon comes from a source not yet seen here is about the share of sources seen exactly
+    // once (Good 1953).
     const auto once = std::count_if(shares_.begin() + static_cast<std::ptrdiff_t>(begin), shares_.end(),
                                     [&](const Share& s) { return s.share < 1.5 / photons_here; });
     cells_[cell] = {begin, shares_.size(), detail::most_trust * (1.0 - static_cast<double>(once) / photons_here)};

@@ -31,7 +31,7 @@ HALFLIGHT_INLINE glm::dmat3 bend_of(const raycast::PlacedObject& object, std::ui
     normals.push_back(n);
     mean += glm::dvec2{glm::dot(n, t), glm::dot(n, s)} / static_cast<double>(patch.contour.size());
   }
-  glm::dmat2 moments{0.0};  // of n and of the place
+  glm::dmat2 moments{0.0};  // covariance of normal and position
   glm::dmat2 places{0.0};
   for (std::size_t i = 0; i < normals.size(); ++i) {
     const glm::dvec3 d = patch.contour[i] - patch.centre;

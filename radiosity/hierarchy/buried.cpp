@@ -26,7 +26,7 @@ namespace radiosity {
 
 namespace detail {
 
-// The convex solids of a scene, rooms left out.
+// The convex solids of a scene, without rooms.
 class ConvexSolids {
  public:
   explicit ConvexSolids(const std::vector<Surface>& surfaces) : surfaces_{&surfaces} {
@@ -40,13 +40,13 @@ class ConvexSolids {
     if (!solids_.empty()) { tree_ = raycast::Bvh{boxes}; }
   }
 
-  // Does one of them hold the hull of these points and all that is nearer to it than `bulge`, deeper than the tolerance of occlusion
-  // (raycast/scene.hpp)? At most `most_asked` solids around it are asked.
+  // Does one of the solids contain the convex hull of these points and everything within `bulge` of it, deeper than the tolerance of
+  // occlusion (raycast/scene.hpp)? Tests at most `most_asked` solids.
   [[nodiscard]] bool hold(const Polygon& points, double bulge, std::uint32_t owner) const {
     if (solids_.empty()) { return false; }
     raycast::Box box;
     for (const glm::dvec3& p : points) { box.extend(p); }
-    const double margin = bulge + 4e-9 * (*surfaces_)[owner].object->bounds().diameter() + 1e-13;  // the frame makes coordinates of size 1
+    const double margin = bulge + 4e-9 * (*surfaces_)[owner].object->bounds().diameter() + 1e-13;  // coordinates in the frame are about 1
     box = box.grown(margin);
     std::uint32_t asked = 0;
     std::vector<std::uint32_t> stack{0};
@@ -74,7 +74,8 @@ class ConvexSolids {
   [[nodiscard]] static bool around(const raycast::Box& outer, const raycast::Box& box) {
     return glm::all(glm::lessThanEqual(outer.lo, box.lo)) && glm::all(glm::lessThanEqual(box.hi, outer.hi));
   }
-  // A sphere of this radius lies within the octahedron of sqrt 3 times the size; all that lies between such octahedra lies in the solid.
+  // Tests octahedra around the points. A sphere of radius r lies within the octahedron of size sqrt(3) r, and because the solid is
+  // convex, it contains everything between octahedra that it contains.
   [[nodiscard]] static bool holds(const raycast::PlacedObject& solid, const Polygon& points, double margin) {
     const glm::dvec3 centre = solid.bounds().centre();
     const auto inside = [&](const glm::dvec3& p) {

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Input faces of which nothing can be seen, found before any pair of faces is looked at: of a thousand boxes at one place 999 are covered
-// by the last, of nested boxes all but the outermost are in the dark. Refinement would split them all against each other, as near as they
-// are, and only then find that nothing of them is exposed (exposure.hpp).
+// Finds input faces that are completely hidden, before any pair of faces is considered: of a thousand boxes at the same place, 999 are
+// covered by the last one; of nested boxes all but the outermost are in the dark. Otherwise refinement would split them all against each
+// other, because they are so close, and find only afterwards that they are not exposed (exposure.hpp).
 //
-// Proven, in the sense of raycast::Scene::covered: a face is buried when a later object is the same surface at the same place, or when a
-// convex solid holds its corners, and all that finer patches can bulge, deeper than the tolerance of occlusion. Faces for which neither is
-// found are treated as visible, such as those of a curved solid that lies in another one with a gap narrower than its patches can bulge.
+// Only proven cases count (in the sense of raycast::Scene::covered): a face is buried if a later object is the same surface at the same
+// place, or if a convex solid contains its corners and everything within the distance by which finer patches can bulge, deeper than the
+// tolerance of occlusion. All other faces are treated as visible, for instance those of a curved solid inside another one with a gap
+// narrower than its patches can bulge.
 
 #include <vector>
 
@@ -16,8 +17,8 @@
 
 namespace radiosity {
 
-// Which input faces are proven to be buried, and which clusters have no other; by node. Time: n log n, and, among solids that hold each
-// other, up to 256 solids a face.
+// By node: is this input face proven to be buried, or does this cluster contain only such faces? Time: n log n; among solids that contain
+// each other, up to 256 solids a face.
 [[nodiscard]] std::vector<bool> buried_nodes(const std::vector<Surface>& surfaces, const Hierarchy& hierarchy);
 
 }  // namespace radiosity

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The area of the part of a curved sheet that a patch stands for. A patch is a chord of its surface and too small by the order of the
-// square of its size; counted with its own area it would give and take too little light for what it stands for. (The chord
-// patch keeps the energy of its surface: the paper's section 5, refined vertices on the true surface.)
+// The area of the part of a curved sheet that a patch represents. A patch is a chord of its surface, and its area is too small by a
+// relative amount of second order in its size; with that area it would receive and send too little light. (With the true area the chord
+// patch keeps the energy of its surface; the paper's section 5 places refined vertices on the true surface.)
 
 #include <cstddef>
 #include <cstdint>
@@ -18,9 +18,9 @@
 
 namespace radiosity {
 
-// Of the sheet over a convex polygon with corners on it. The polygon's triangles and their quarters, with midpoints moved onto the surface,
-// are taken to the limit (Richardson 1911): the relative error is of fourth order in the angle over which the polygon bends.
-// Where midpoints do not lie over the polygon (a crease runs through it) the polygon's own area is taken.
+// The area above a convex polygon with corners on the sheet. Computed from the polygon's triangles and from their quarters with midpoints
+// on the surface, extrapolated (Richardson 1911): the relative error is of fourth order in the angle by which the polygon bends. If
+// midpoints do not lie above the polygon, because a crease runs through it, the result is the polygon's own area.
 [[nodiscard]] inline double curved_area(const raycast::PlacedObject& object, std::uint32_t sheet, const Polygon& polygon) {
   const auto area = [](const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
     return 0.5 * glm::length(glm::cross(b - a, c - a));

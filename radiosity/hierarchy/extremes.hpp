@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The points that bound a scene, in a tree: which of them lie above a plane is asked for every outer surface, and a scene may have many.
-// Objects with plane faces are bounded by their vertices, others by the corners of their bounds.
+// The points that bound a scene, in a tree, so that the test whether any of them lies above a plane is fast; it is made for every outer
+// surface. Objects with plane faces contribute their vertices, others the corners of their bounds.
 
 #include <vector>
 
@@ -20,8 +20,8 @@ class Extremes {
   Extremes() = default;
   explicit Extremes(const std::vector<Surface>& surfaces);
 
-  // Does any point lie more than `slack` above the plane through `point` with this normal? A walk down a tree, except for scenes of which
-  // very much lies in the plane.
+  // Does any point lie more than `slack` above the plane through `point` with this normal? One descent of the tree, unless very many
+  // points lie in the plane.
   [[nodiscard]] bool any_above(const glm::dvec3& point, const glm::dvec3& normal, double slack) const;
 
  private:

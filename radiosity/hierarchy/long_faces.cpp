@@ -29,21 +29,21 @@
 
 namespace radiosity {
 
-// Faces up to the first proportion are left as they are; the parts of longer ones have the second.
+// longest_face: faces up to this proportion are left unchanged; longest_part: limit of the parts of longer ones.
 inline constexpr double longest_face = 8.0, longest_part = 4.0;
 
-// Faces with a smaller share of the area of all are left as they are: refinement makes few patches of them.
+// Faces with a smaller share of the total area are left unchanged, because refinement makes few patches of them.
 inline constexpr double least_long_share = 0.01;
 
 namespace detail {
 
-// Are two edges, one after the other, one straight line?
+// Do two consecutive edges lie on one straight line?
 [[nodiscard]] HALFLIGHT_INLINE bool goes_straight_on(const glm::dvec3& before, const glm::dvec3& after) {
   constexpr double straight = 1e-9;  // sine of the angle
   return glm::dot(before, after) > 0.0 && glm::length(glm::cross(before, after)) <= straight * glm::length(before) * glm::length(after);
 }
 
-// A face along its longest side. A side may have corners within it, where a neighbour was cut.
+// Extent of a face along its longest side. A side may contain corners where a neighbour was cut.
 struct FaceLength {
   glm::dvec3 along{0.0};  // unit
   glm::dvec3 middle{0.0};
@@ -54,7 +54,7 @@ struct FaceLength {
     const auto edge = [&](std::size_t i) { return polygon[(i + 1) % count] - polygon[i % count]; };
     double longest = 0.0;
     for (std::size_t i = 0; i < count; ++i) {
-      if (goes_straight_on(edge(i + count - 1), edge(i))) { continue; }  // within a side
+      if (goes_straight_on(edge(i + count - 1), edge(i))) { continue; }  // a corner within a side
       std::size_t last = i;
       while (last + 1 < i + count && goes_straight_on(edge(last), edge(last + 1))) { ++last; }
       const glm::dvec3 side = polygon[(last + 1) % count] - polygon[i];
@@ -109,7 +109,7 @@ HALFLIGHT_INLINE void cut_long_faces(std::vector<Surface>& surfaces, double min_
       if (parts.size() > 1 || !is_long(surface.brep, parts[0], longest_face)) { continue; }
       if (glm::length(brep::vector_area(surface.brep, parts[0])) >= least_long_share * area) { faces.push_back(parts[0]); }
     }
-    // A refusal leaves the face as it was: whole, it costs more links, and is no less valid.
+    // If the operators refuse, the face stays whole, which costs more links but is valid.
     for (const brep::FaceId f : faces) { (void)brep::split_recursively(surface.brep, f, across, finished, 1u << 17); }
   }
 }

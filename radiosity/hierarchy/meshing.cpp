@@ -45,9 +45,9 @@ HALFLIGHT_INLINE ChildFaces RegularMeshing::operator()(const LeafFace& leaf) con
   return {std::move(*faces), !ring};
 }
 
-// Does splitting make the patches of a curved object smaller? Flat patches fall to a quarter each time. Where a surface folds within the
-// rounding of its coordinates (the tip of a needle) new vertices come to lie on old ones, and one child is as large as its parent for ever:
-// it is given up when four splits together did not make it as small as one should.
+// Does splitting make the patches of a curved object smaller? The area of flat patches falls to a quarter with each split. Where a
+// surface folds within rounding error (the tip of a needle), new vertices coincide with old ones, and one child stays as large as its
+// parent for ever. So splitting is given up if four splits together have not reduced the area to that of one.
 [[nodiscard]] HALFLIGHT_INLINE bool shrinks(const Hierarchy& hierarchy, std::uint32_t index) {
   std::uint32_t ancestor = index;
   for (int k = 0; k < 4; ++k) {

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The meshing strategy: how the face of a leaf is split into the faces of its children. "A face split could result in only two or three new
-// faces, depending on the chosen meshing strategy" (paper 3). Ours, RegularMeshing, gives one quadrilateral a corner. A user's
-// (Options::meshing) is a value with one function, or a split object of the BRep (brep/split_objects.hpp) in CutBy. What it must promise:
+// The meshing strategy: how the face of a leaf is split into the faces of its children. "A face split could result in only two or three
+// new faces, depending on the chosen meshing strategy" (paper 3). The default, RegularMeshing, makes one quadrilateral per corner. A
+// user-defined strategy (Options::meshing) is a function object, or a split object of the BRep (brep/split_objects.hpp) wrapped in CutBy.
+// Its contract:
 //
-//   - The faces that it returns cover the old one and are convex; each has corners of a level no higher than its own, which is one more
-//     than that of the old face (brep/refine.hpp). The data of the old face goes on in all of them.
-//   - All is done by Euler operators, so the BRep stays valid. New vertices are given to `place`, which moves them onto the object.
-//   - The same face is split alike each time. Called from one thread at a time.
+//   - The returned faces cover the old one and are convex. Their level is one more than that of the old face, and no corner has a higher
+//     level than its face (brep/refine.hpp). All of them inherit the data of the old face.
+//   - It uses Euler operators only, so the BRep stays valid. It passes new vertices to `place`, which moves them onto the object.
+//   - It is deterministic: the same face is always split in the same way. It is called from one thread at a time.
 
 #include <algorithm>
 #include <concepts>
@@ -32,18 +33,18 @@
 
 namespace radiosity {
 
-// What is to be split.
+// The face of a leaf that is to be split.
 struct LeafFace {
   Surface& surface;
   brep::FaceId face;
 
-  // Moves a new vertex onto the object, or onto the curve where two of its sheets meet. Polygons of their own stay flat.
+  // Moves a new vertex onto the object, or onto the curve in which two of its sheets meet. Separate polygons (polygons.hpp) stay flat.
   void place(brep::VertexId v) const;
 };
 
 struct ChildFaces {
-  std::vector<brep::FaceId> faces;  // none: the face cannot be split, and nothing has changed
-  bool one_a_corner = false;        // child k holds corner k of the old face as its corner 0; more may follow
+  std::vector<brep::FaceId> faces;  // empty: the face cannot be split, and nothing has changed
+  bool one_a_corner = false;        // does child k have corner k of the old face as its corner 0? Further children may follow
 };
 
 template <class M>
@@ -51,14 +52,14 @@ concept MeshingStrategy = std::copy_constructible<M> && std::is_invocable_r_v<Ch
 
 using Meshing = std::function<ChildFaces(const LeafFace&)>;
 
-// Regular refinement by level tags (paper 4.4, fig. 4). A face of many corners is first cut into a ring and what it surrounds.
+// Regular refinement by level tags (paper 4.4, fig. 4). A face of many corners is first cut into a ring and the inner polygon.
 struct RegularMeshing {
   [[nodiscard]] ChildFaces operator()(const LeafFace& leaf) const;
 };
 static_assert(MeshingStrategy<RegularMeshing>);
 
-// One cut, where a split object places it: two children. Where the cut ends inside an edge, a neighbour of the children's level gets one
-// more corner; its patch stays as it was.
+// One cut at the place given by a split object: two children. If the cut ends inside an edge, the neighbour across that edge gets an
+// additional corner, at the children's level; its patch does not change.
 template <brep::SplitObjectFor<SurfaceBRep> Split>
 class CutBy {
  public:
@@ -91,8 +92,8 @@ class CutBy {
   Split split_;
 };
 
-// Splits a leaf: the faces that the strategy makes of its face become its children. False when it makes none, or when the patches of a
-// curved object do not get smaller by it; then nothing has changed.
+// Splits a leaf: the faces made by the strategy become its children. Returns false if there are none, or if the patches of a curved
+// object do not get smaller; then nothing has changed.
 [[nodiscard]] bool subdivide(std::vector<Surface>& surfaces, Hierarchy& hierarchy, std::uint32_t index,
                              const Meshing& meshing = RegularMeshing{});
 

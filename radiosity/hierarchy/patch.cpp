@@ -28,7 +28,7 @@ template <std::size_t N>
 void append_gauss(const std::array<glm::dvec3, 4>& corner, const glm::dvec3& normal, const std::array<double, N>& x,
                   const std::array<double, N>& w, BigArray<QuadraturePoint>& out) {
   const auto& [a, b, c, d] = corner;
-  if (out.empty()) { out.reserve(N * N); }  // most patches are one piece, and a run has many patches
+  if (out.empty()) { out.reserve(N * N); }  // most patches are a single piece
   for (std::size_t i = 0; i < N; ++i) {
     for (std::size_t j = 0; j < N; ++j) {
       const double u = x[i];
@@ -74,7 +74,7 @@ HALFLIGHT_INLINE void set_inertia(Patch& patch) {
     ss += q.weight / area * glm::dot(x, s) * glm::dot(x, s);
   }
   const double determinant = tt * ss - ts * ts;
-  if (!(determinant > 1e-20 * (tt + ss) * (tt + ss))) { return; }  // a needle: no slope
+  if (!(determinant > 1e-20 * (tt + ss) * (tt + ss))) { return; }  // a needle: no gradient is determined
   patch.inverse_inertia =
       (ss * glm::outerProduct(t, t) - ts * (glm::outerProduct(t, s) + glm::outerProduct(s, t)) + tt * glm::outerProduct(s, s)) /
       determinant;
@@ -90,7 +90,7 @@ HALFLIGHT_INLINE glm::dvec3 vector_area(std::span<const glm::dvec3> polygon) {
 
 namespace detail {
 
-// Quadrilaterals around corner 0; a triangle is left over when the number of corners is odd.
+// Adds rules for quadrilaterals around corner 0, and a triangle if the number of corners is odd.
 HALFLIGHT_INLINE void append_rules(Patch& patch, const Polygon& q) {
   for (std::size_t i = 1; i + 1 < q.size(); i += 2) {
     const std::array<glm::dvec3, 4> piece{q[0], q[i], q[i + 1], i + 2 < q.size() ? q[i + 2] : q[i + 1]};

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The geometry of one patch as the form factor and the visibility test want it: contour, plane, size, and the
-// points of quadrature rules. One is made of every node of the hierarchy and lives until the end of the run (Patches, occlusion.hpp),
-// because the node takes part in many links: about 1.4 kB for a quadrilateral, 304 bytes here and the rest its corners and points, where
-// the node itself, with the centre, normal and area of paper 4.2, takes 112. So patches are most of what a run holds while it has few
-// links a node.
+// The geometry of one patch, prepared for form factors and visibility tests: contour, plane, size, and quadrature points. A patch is made
+// for every node of the hierarchy and kept until the end of the run (Patches, occlusion.hpp), because the node takes part in many links.
+// It takes about 1.4 kB for a quadrilateral (304 bytes here, the rest for corners and points); the node itself, with the centre, normal
+// and area of paper 4.2, takes 112 bytes. So patches are most of a run's memory while there are few links per node.
 
 #include <array>
 #include <memory_resource>
@@ -26,17 +25,17 @@ struct QuadraturePoint {
 };
 
 struct Patch {
-  Polygon contour;         // counter-clockwise seen from the bright side, (nearly) planar; convex when there are no parts
+  Polygon contour;         // counter-clockwise seen from the front, (nearly) planar; convex if there are no parts
   glm::dvec3 centre{0.0};  // mean of the corners
   glm::dvec3 normal{0.0};
   double area = 0.0;
-  double radius = 0.0;                            // greatest distance of a corner from the centre
-  glm::dvec3 centroid{0.0};                       // of the area
+  double radius = 0.0;                            // largest distance of a corner from the centre
+  glm::dvec3 centroid{0.0};                       // centroid of the area
   glm::dmat3 inverse_inertia{0.0};                // inverse, in the plane, of the mean of (x - centroid)(x - centroid)'
   BigArray<QuadraturePoint> rule2, rule3, rule4;  // 2x2, 3x3 and 4x4 Gauss points on each quadrilateral piece
-  bool bent = false;                              // its surface is curved, and normals turn over it:
-  glm::dmat3 bend{0.0};                           // by this, a length (bend.hpp)
-  std::vector<Polygon> parts;                     // convex, of a contour that is not; holes are reached by bridges, run through twice
+  bool bent = false;                              // is its surface curved, so that normals vary over it?
+  glm::dmat3 bend{0.0};                           // if so, S of bend.hpp, in 1 / length
+  std::vector<Polygon> parts;  // convex parts of a non-convex contour, which reaches holes by bridge edges that it follows twice
 };
 
 namespace detail {
@@ -57,7 +56,8 @@ inline constexpr std::array<double, 4> gauss4_w{0.17392742256872692869, 0.326072
 [[nodiscard]] glm::dvec3 vector_area(std::span<const glm::dvec3> polygon);
 
 // The patch with this contour; one that is not convex comes with its convex parts. A contour of no area gives a patch of area 0 without
-// quadrature points.
+// Makes the patch with this contour; if it is not convex, its convex parts must be given. A contour without area gives a patch
+// of area 0 without quadrature points. `arrays`: memory for the quadrature points; null: the default heap.
 [[nodiscard]] Patch make_patch(Polygon contour, std::vector<Polygon> parts = {}, std::pmr::memory_resource* arrays = nullptr);
 
 }  // namespace radiosity

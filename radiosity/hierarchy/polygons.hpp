@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Polygons that share nothing with one another: the input of classical hierarchical radiosity (Hanrahan, Salzman and Aupperle 1991), with
-// which the paper compares itself. Every face of a boundary becomes a polygon with vertices of its own and is the root of a quad-tree of
-// its own; oracle, form factors and visibility stay the same. All that needs shared topology is lost: vertices that follow a curved surface
-// (the parts of a polygon lie in its plane), reconstruction across the edge between two polygons, and the elimination of T-vertices.
+// Polygons that share no vertices: the input of classical hierarchical radiosity (Hanrahan, Salzman and Aupperle 1991), with which the
+// paper compares its method. Every face of a boundary becomes a polygon with vertices of its own and the root of a quad-tree; oracle,
+// form factors and visibility stay the same. What needs shared topology is lost: vertices that follow a curved surface (the parts of a
+// polygon lie in its plane), reconstruction across the edge between two polygons, and the elimination of T-vertices.
 //
-// Also here: cutting all faces evenly, for methods without a hierarchy.
+// Also here: even subdivision of all faces, for methods without a hierarchy.
 
 #include <cassert>
 #include <cstdint>
@@ -29,8 +29,8 @@
 
 namespace radiosity {
 
-// The faces of an unrefined boundary as polygons of their own, each with a back that belongs to no sheet. What had no sheet before
-// is left out. The faces of a Surface are convex and proper, so this cannot fail.
+// Makes each face of an unrefined boundary a separate polygon with a back that belongs to no sheet. Faces without a sheet are left out.
+// The faces of a Surface are convex and valid, so this cannot fail.
 [[nodiscard]] inline Surface separate_polygons(const Surface& surface) {
   brep::Builder builder;
   for (const brep::FaceId f : brep::faces(surface.brep)) {
@@ -46,7 +46,7 @@ namespace radiosity {
   return {surface.object, surface.first_surface, std::move(*closed.brep), Topology::separate};
 }
 
-// Splits leaves until none is larger than max_area (in the unit of the node areas).
+// Splits leaves until none is larger than max_area (same unit as the areas of the nodes).
 inline void split_evenly(std::vector<Surface>& surfaces, Hierarchy& hierarchy, double max_area) {
   for (std::uint32_t i = 0; i < hierarchy.size(); ++i) {
     if (hierarchy[i].leaf() && hierarchy[i].area > max_area) { (void)subdivide(surfaces, hierarchy, i); }

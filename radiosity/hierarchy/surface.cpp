@@ -41,7 +41,7 @@
 
 namespace radiosity {
 
-// Chord error of the first approximation, relative to the size of the object. Refinement goes on from there.
+// Chord error of the first approximation, relative to the size of the object. Refinement continues from there.
 inline constexpr double first_chord_error = 0.01;
 
 HALFLIGHT_INLINE SurfaceResult make_surface(const raycast::PlacedObject& object, std::uint32_t first_surface) {
@@ -62,7 +62,7 @@ HALFLIGHT_INLINE SurfaceResult make_surface(const raycast::PlacedObject& object,
   for (const brep::FaceId f : concave) {
     const auto parts = brep::split_until_convex(surface.brep, f);
     if (parts) { continue; }
-    // A chord patch that was cut along another solid need not be planar: ears are cut off, down to triangles if it must be.
+    // A chord face that was cut along another solid need not be planar; then ears are cut off, down to triangles if necessary.
     const bool warped = parts.refusal().code == brep::Code::not_planar && !object.flat();
     const auto split = brep::first_of(brep::AtNonConvexCorner{}, brep::AtBestEar{});
     if (!warped || !brep::split_recursively(surface.brep, f, split, brep::Convex{} || brep::triangles)) {
@@ -90,8 +90,8 @@ HALFLIGHT_INLINE glm::dvec3 on_sheets(const raycast::PlacedObject& object, std::
   return p;
 }
 
-// How far the border of a face on a plane leaves the chords between its corners, where that runs between two sheets of a curved object:
-// twice what it does at their middles, which is enough for arcs of ellipses.
+// How far the border of a plane face departs from the chords between its corners, where it runs between two sheets of a curved object:
+// twice the distance at the middles of the chords, which is an upper bound for arcs of ellipses.
 [[nodiscard]] HALFLIGHT_INLINE double rim(const Surface& surface, brep::FaceId f) {
   if (surface.topology != Topology::shared) { return 0.0; }
   const SurfaceBRep& brep = surface.brep;
@@ -206,9 +206,9 @@ HALFLIGHT_INLINE Hierarchy make_roots(std::vector<Surface>& surfaces, std::pmr::
   return hierarchy;
 }
 
-// The contour of a polygon in convex parts that share corners, bit by bit, with a bridge to each hole. Diagonals that span the parts, each
-// joining two that were not connected, vanish: the parts become one disk. The others are the bridges, and slits that lead to a corner
-// inside; these are left out.
+// The contour of a polygon given by convex parts with bitwise equal corners, with a bridge to each hole. Diagonals of a spanning tree of
+// the parts (each joins two that were not connected yet) are removed, so that the parts become one disk. The remaining diagonals are
+// bridges, which are kept, or slits that lead to an inner corner, which are removed.
 [[nodiscard]] HALFLIGHT_INLINE Polygon contour_of_parts(const std::vector<Polygon>& parts) {
   struct Side {
     std::array<double, 6> ends;
@@ -248,7 +248,7 @@ HALFLIGHT_INLINE Hierarchy make_roots(std::vector<Surface>& surfaces, std::pmr::
   do {
     const glm::dvec3& corner_of_side = parts[side->part][side->corner];
     if (polygon.size() > 1 && polygon[polygon.size() - 2] == corner_of_side) {
-      polygon.pop_back();  // to the end of a slit and back
+      polygon.pop_back();  // remove a slit: to its end and back
     } else {
       polygon.push_back(corner_of_side);
     }

@@ -5,8 +5,8 @@
 // attributes (paper 2.2, 4.2). Vertices and faces carry level tags; faces know their sheet and their hierarchy
 // leaf; half-edges carry the normal and the colour of their origin as seen from their face (paper 4.5).
 //
-// A vertex that refinement inserts is placed on the object by Object::project, so the mesh follows the true shape
-// as it gets finer; on an edge between two sheets it is placed on both.
+// A vertex inserted by refinement is placed on the object by Object::project, so the mesh follows the true shape as it gets
+// finer; on an edge between two sheets it is placed on both.
 
 #include <cstddef>
 #include <cstdint>
@@ -43,15 +43,15 @@ struct SurfaceHalfedge {
 
 struct SurfaceFace : brep::Tag {
   std::uint32_t sheet = brep::no_sheet;
-  std::uint32_t node = no_node;              // the hierarchy leaf that stands on this face
-  std::uint32_t part = brep::invalid_index;  // the face of the boundary, once all are convex, from which this one was cut
+  std::uint32_t node = no_node;              // hierarchy leaf of this face
+  std::uint32_t part = brep::invalid_index;  // face of the initial convex boundary from which this one was cut
 };
 
 using SurfaceBRep = brep::BRep<SurfaceVertex, SurfaceHalfedge, SurfaceFace>;
 
 struct Surface {
   const raycast::PlacedObject* object = nullptr;
-  std::uint32_t first_surface = 0;  // input surface of sheet 0
+  std::uint32_t first_surface = 0;  // index of the input surface of sheet 0
   SurfaceBRep brep;
   Topology topology = Topology::shared;
 };
@@ -64,28 +64,28 @@ struct SurfaceResult {
 
 [[nodiscard]] SurfaceResult make_surface(const raycast::PlacedObject& object, std::uint32_t first_surface);
 
-// Corner positions of a face, corner 0 first, T-vertices left out.
+// Corner positions of a face, beginning with corner 0, without T-vertices.
 [[nodiscard]] Polygon corner_polygon(const SurfaceBRep& brep, brep::FaceId f);
 
-// The point near p of a curved object at which these sheets meet, or that of the one sheet; backs (brep::no_sheet) do not count.
+// The point near p of a curved object at which these sheets meet, or its projection if it is one sheet; backs (brep::no_sheet) are ignored.
 [[nodiscard]] glm::dvec3 on_sheets(const raycast::PlacedObject& object, std::span<const std::uint32_t> sheets, glm::dvec3 p);
 
-// Faces that belong to a sheet: those that give and receive light.
+// Number of faces that belong to a sheet, that is, those that give and receive light.
 [[nodiscard]] std::size_t radiating_faces(const Surface& surface);
 
-// The input faces of a surface, each by its convex parts: a face that is not convex was cut by diagonals, and of an object with flat sheets
-// the parts are known again by their sheet. One that was cut at a wall (wall_cuts.hpp) falls into all its parts: no patch spans the wall.
-// Holes and backs are left out.
+// The input faces of a surface, each as its convex parts. A face that is not convex was cut by diagonals; on an object with flat sheets
+// its parts are found again by their common sheet. A face that was cut at a wall (wall_cuts.hpp) gives one input face for each part, so
+// that no patch spans the wall. Holes and backs are left out.
 [[nodiscard]] std::vector<std::vector<brep::FaceId>> input_faces(const Surface& surface);
 
-// One root for each input face of each surface (paper 4.2); below that of a face in convex parts are the leaves of the parts.
+// One root for each input face of each surface (paper 4.2). Below the root of a face in convex parts, the parts are leaves.
 [[nodiscard]] Hierarchy make_roots(std::vector<Surface>& surfaces, std::pmr::memory_resource* arrays = nullptr);
 
-// Makes the leaf of a face, a node with this index and parent, and writes its index into the face.
+// Makes the leaf of a face, with this index and parent, and stores its index at the face.
 [[nodiscard]] Node make_leaf(Surface& surface, std::uint32_t object, brep::FaceId f, std::uint32_t parent, std::uint32_t index);
 
-// The corners of any node: those of its face when it is a leaf, the contour of its parts when it has some, else corner 0 of its first
-// children.
+// The corners of a node: of a leaf, those of its face; of a node in convex parts, the contour of the parts; otherwise corner 0 of each of
+// its first children.
 [[nodiscard]] Polygon contour(const std::vector<Surface>& surfaces, const Hierarchy& hierarchy, std::uint32_t index);
 
 }  // namespace radiosity

@@ -27,13 +27,13 @@ namespace radiosity {
 
 namespace detail {
 
-// The bounds of an object to a millionth of the scene.
+// The bounds of an object, rounded to a millionth of the scene.
 struct Place {
   std::array<double, 6> bounds;
   std::uint32_t object;
 };
 
-// Of all objects, equal bounds beside each other.
+// All objects, sorted so that equal bounds are adjacent.
 HALFLIGHT_INLINE std::vector<Place> sorted_places(const std::vector<Surface>& surfaces) {
   std::vector<Place> places;
   raycast::Box all;
@@ -53,7 +53,7 @@ HALFLIGHT_INLINE std::vector<Place> sorted_places(const std::vector<Surface>& su
   return places;
 }
 
-// The corners of the faces with the normals of their sheets.
+// The corners of all faces, with the normals of their sheets.
 HALFLIGHT_INLINE std::vector<raycast::SurfacePoint> corners(const Surface& surface) {
   std::vector<raycast::SurfacePoint> points;
   for (const brep::FaceId f : brep::faces(surface.brep)) {
@@ -67,7 +67,8 @@ HALFLIGHT_INLINE std::vector<raycast::SurfacePoint> corners(const Surface& surfa
   return points;
 }
 
-// Is every corner of a one of b, or, when b is curved, on b? What is the same comes in the same order, as a rule.
+// Is every corner of a a corner of b or, if b is curved, on b? Duplicates usually have their corners in the same order, so each
+// search begins at the same index.
 HALFLIGHT_INLINE bool lies_in(const Surface& a, const Surface& b) {
   const raycast::PlacedObject& other = *b.object;
   const double touch = 1e-9 * other.bounds().diameter() + other.slack() + a.object->slack();
@@ -94,8 +95,9 @@ HALFLIGHT_INLINE std::vector<std::array<std::uint32_t, 2>> twins(const std::vect
   for (std::size_t first = 0; first < places.size();) {
     std::size_t last = first + 1;
     while (last < places.size() && places[last].bounds == places[first].bounds) { ++last; }
-    // From the last to the first. An object is a copy if it equals a later one that is no copy itself, so that in a chain of objects, each
-    // a little different from the next, no two become copies that differ much. Each is compared with the next 64 that are no copies.
+    // Processes from the last object to the first. An object is a copy if it equals a later one that is not a copy itself; so in a chain
+    // of objects, each slightly different from the next, no two copies differ much. Each is compared with the next 64 objects that are
+    // not copies.
     std::vector<std::uint32_t> kept;
     for (std::size_t i = last; i-- > first;) {
       const std::uint32_t a = places[i].object;

@@ -38,30 +38,32 @@ struct WallFace {
   Polygon polygon;
   glm::dvec3 normal{0.0};
   raycast::Box box;
-  double thickness = 0.0;  // of the wall, from this face to the one on its other side; 0 of a sheet
+  double thickness = 0.0;  // distance from this face to the one on the other side of the wall; 0 for a sheet
 };
 
-// Of a line across a face that walls must cover to cut it. About half, and no round number, which walls would meet as an equality.
+// Share of a line across a face that walls must cover for a cut. About half, but not exactly, because regular models often cover exactly
+// half and rounding would then decide.
 inline constexpr double share_of_walls = 0.47;
-// A few walls on a wide face, of a tent or a house on its ground, cut it though they are short beside it: between them it may be dark. What
-// is thicker than this part of its foot is no wall; to cut along a block does more harm, by long narrow patches, than good.
+// A few walls on a wide face, of a tent or a house on its ground, cut it even if they are short compared with it, because the area
+// between them may be dark. Objects thicker than this share of their length count as blocks, not walls: cutting along a block makes long
+// narrow patches, which do more harm than good.
 inline constexpr double share_of_few_walls = 0.07, thickness_of_wall = 0.2;
-// What lies before a face and parallel to it hides it when it is no farther from it than this part of its own diameter. Its outline cuts
-// a part of the face if it is at least this share of that part: less is lost under what is smaller than by long narrow patches beside it.
-// Triangles of layers of fine meshes, smaller than this part of the scene's diameter, do not cut each other.
+// close_gap: an object parallel to a face hides it if its distance is at most this share of its own diameter. share_hidden: its outline
+// cuts a part of the face if it is at least this share of that part; with smaller objects, long narrow patches would do more harm.
+// least_outline: triangles of layers of fine meshes, smaller than this share of the scene's diameter, do not cut each other.
 inline constexpr double close_gap = 0.02, share_hidden = 0.03, least_outline = 0.02;
-inline constexpr std::ptrdiff_t least_lines = 2, few_lines = 12;  // one wall alone encloses nothing
+inline constexpr std::ptrdiff_t least_lines = 2, few_lines = 12;  // a single wall encloses nothing
 
-// A line across a face and the intervals of it on which walls stand.
+// A line across a face, and the intervals of it on which walls stand.
 struct WallLine {
-  glm::dvec3 point{0.0}, normal{0.0};  // the plane of the walls
+  glm::dvec3 point{0.0}, normal{0.0};  // point and normal of the walls' plane
   glm::dvec3 along{0.0};               // unit
   std::vector<std::pair<double, double>> intervals;
-  bool thin = true;     // are all of them?
-  double hidden = 0.0;  // of an edge of what lies close before the face: the area of that; 0 of walls
+  bool thin = true;     // are all walls on it thin?
+  double hidden = 0.0;  // area of the object close to the face whose outline this line is; 0 for walls
 
   [[nodiscard]] double at(const glm::dvec3& p) const { return glm::dot(p - point, along); }
-  // Length of what the walls cover between two places.
+  // Length of the part between two places that the walls cover.
   [[nodiscard]] double covered(double from, double to) const {
     double sum = 0.0;
     double reached = from;
@@ -80,7 +82,7 @@ HALFLIGHT_INLINE bool boxes_meet(const raycast::Box& a, const raycast::Box& b, d
   return true;
 }
 
-// How far behind each face of a solid the next one is that looks the other way. A solid of many faces is no wall.
+// Sets the thickness: the distance behind each face to the next face that looks the other way. Solids of many faces are no walls.
 HALFLIGHT_INLINE void measure_thickness(std::vector<WallFace>& faces) {
   constexpr std::size_t most_faces = 256;
   for (WallFace& face : faces) {
@@ -109,7 +111,7 @@ HALFLIGHT_INLINE std::vector<WallFace> wall_faces(const Surface& surface) {
   return faces;
 }
 
-// Adds the interval on which `wall` stands on or goes through the plane of `face`, if it rises above the bright side of the face.
+// Adds the interval on which `wall` stands on the plane of `face` or passes through it, if it rises above the front of the face.
 HALFLIGHT_INLINE void add_wall(const WallFace& face, const WallFace& wall, double tolerance, std::vector<WallLine>& lines) {
   const glm::dvec3 across = glm::cross(face.normal, wall.normal);
   if (!(glm::length(across) > 1e-6)) { return; }
@@ -146,8 +148,8 @@ HALFLIGHT_INLINE void add_wall(const WallFace& face, const WallFace& wall, doubl
   lines.push_back({w[0], wall.normal, along, {{from, to}}, thin});
 }
 
-// Adds the outline of `sheet` if it lies parallel to `face` and close before it, as a lamp that hangs under a ceiling: the face is dark
-// behind it and bright beside it.
+// Adds the outline of `sheet` if it is parallel to `face` and close in front of it, as a lamp under a ceiling: the face is dark behind it
+// and bright beside it.
 HALFLIGHT_INLINE void add_outline(const WallFace& face, const WallFace& sheet, double tolerance, std::vector<WallLine>& lines) {
   if (std::abs(glm::dot(face.normal, sheet.normal)) < 1.0 - 1e-6) { return; }
   for (const glm::dvec3& p : sheet.polygon) {
@@ -190,25 +192,26 @@ HALFLIGHT_INLINE void cut_along(SurfaceBRep& brep, brep::FaceId face, std::vecto
     }
     return brep::Cut{};
   };
-  // A refusal leaves the face as it was: whole, it is less exact, and no less valid.
+  // If the operators refuse, the face stays whole, which is less exact but valid.
   (void)brep::split_recursively(
       brep, face, place, [](const SurfaceBRep&, brep::FaceId) { return false; }, 1024);
 }
 
-// Pairs of faces of one object and its partner that are looked at.
+// Limit of the pairs of faces of an object and its partner that are examined.
 inline constexpr std::size_t most_face_pairs = 10'000'000;
 
-// May faces of this object cross each other? Those of a solid do not. Large surfaces are not asked: they are one sheet, as a rule.
+// May faces of this object intersect each other? Not those of a solid. Large open surfaces are not examined, because they are usually one
+// sheet.
 [[nodiscard]] HALFLIGHT_INLINE bool may_cross_itself(const Surface& surface) {
   const std::size_t faces = surface.object->sheet_count();
   return !surface.object->solid() && faces > 1 && faces * faces <= most_face_pairs;
 }
 
-// Objects with flat faces whose bounds meet.
+// Pairs of objects with flat faces whose bounds meet.
 struct WallPairs {
-  std::vector<std::uint32_t> order;                  // what can be cut and can cut
-  std::vector<std::vector<std::uint32_t>> partners;  // of each object, ascending
-  std::size_t not_looked_at = 0;                     // objects, when there are too many pairs
+  std::vector<std::uint32_t> order;                  // objects that can be cut or can cut others
+  std::vector<std::vector<std::uint32_t>> partners;  // by object, ascending
+  std::size_t not_looked_at = 0;                     // number of objects not examined because there are too many pairs
 };
 
 HALFLIGHT_INLINE WallPairs wall_pairs(const std::vector<Surface>& surfaces, double tolerance, std::size_t most_pairs) {
@@ -257,7 +260,7 @@ HALFLIGHT_INLINE std::size_t cut_at_walls(std::vector<Surface>& surfaces, double
   const double tolerance = 1e-9 * diameter;
   const auto [order, partners, not_looked_at] = detail::wall_pairs(surfaces, tolerance, most_pairs);
   std::size_t left_whole = not_looked_at;
-  std::vector<std::vector<detail::WallFace>> walls(surfaces.size());  // as they are before any cut
+  std::vector<std::vector<detail::WallFace>> walls(surfaces.size());  // before any cut
   for (const std::uint32_t o : order) {
     if (!partners[o].empty()) { walls[o] = detail::wall_faces(surfaces[o]); }
   }

@@ -26,11 +26,11 @@ struct FacePair {
   std::uint32_t front, back;
 };
 
-// The faces of one shell that have the same corners in opposite order. No two have the same corners in the same order.
+// Pairs of faces of one shell with the same corners in opposite order. No two faces have the same corners in the same order.
 inline std::vector<FacePair> opposite_faces(const Working& mesh) {
   struct Entry {
     std::uint32_t shell, face;
-    std::vector<std::uint32_t> corners;  // in the lesser of both orders
+    std::vector<std::uint32_t> corners;  // canonical order of the corners or of the reversed corners, whichever is less
   };
   std::vector<Entry> entries;
   for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) {
@@ -57,9 +57,10 @@ void each_edge_of(const Face& face, const Visit& visit) {
   }
 }
 
-// The triangles of a mesh by their corners, in their order, and by their sides; how many faces each edge has.
+// The triangles of a mesh by their corners and by their sides, and the number of faces at each edge.
 struct Triangles {
-  using Key = std::tuple<std::uint32_t, std::uint32_t, std::uint32_t, std::uint32_t>;  // shell, corners or the ends of a side
+  // Shell, and the three corners or the two ends of a side.
+  using Key = std::tuple<std::uint32_t, std::uint32_t, std::uint32_t, std::uint32_t>;
   std::map<Key, std::uint32_t> by_corners, by_side;
   std::map<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>, std::uint32_t> faces_of;  // shell, edge
 
@@ -81,7 +82,7 @@ struct Triangles {
     const auto found = by_side.find(Key{shell, a, b, 0});
     return found == by_side.end() ? none : found->second;
   }
-  // Does no edge of the four triangles have a face that is none of them?
+  // Do the four triangles form a closed surface, that is, does no edge have another face?
   [[nodiscard]] bool closed(const Working& mesh, const std::array<std::uint32_t, 4>& four) const {
     bool only_these = true;
     for (const std::uint32_t f : four) {
@@ -102,7 +103,7 @@ HALFLIGHT_INLINE void match_diagonals(Working& mesh) {
       const std::uint32_t x = first.corners[i], y = first.corners[(i + 1) % 3], p = first.corners[(i + 2) % 3];
       const std::uint32_t g = triangles.with_side(first.shell, y, x);
       if (g == none || g == f || done[g] || mesh.faces[g].material != first.material) { continue; }
-      Face& second = mesh.faces[g];  // x, y are the diagonal; p and q the ends of the other one
+      Face& second = mesh.faces[g];  // x and y are the ends of this diagonal, p and q those of the other one
       const auto opposite = std::find_if(second.corners.begin(), second.corners.end(), [&](auto v) { return v != x && v != y; });
       if (opposite == second.corners.end() || *opposite == p) { continue; }
       const std::uint32_t q = *opposite, a = triangles.with_corners(first.shell, x, p, q), b = triangles.with_corners(first.shell, p, y, q);
@@ -110,14 +111,14 @@ HALFLIGHT_INLINE void match_diagonals(Working& mesh) {
       const glm::dvec3 up = brep::vector_area(mesh.outline(first));
       const auto looks = [&](std::uint32_t face) { return glm::dot(brep::vector_area(mesh.outline(mesh.faces[face])), up); };
       if (!(looks(g) > 0.0 && looks(a) < 0.0 && looks(b) < 0.0)) { continue; }
-      // By itself, and not flat, this is the surface of a tetrahedron.
+      // If the four triangles are closed and not nearly planar, they are the surface of a tetrahedron.
       const glm::dvec3* const at = mesh.positions.data();
       if (triangles.closed(mesh, {f, g, a, b}) && !nearly_sound(std::array{at[x], at[q], at[y], at[p]}, mesh.tolerance)) { continue; }
       done[f] = done[g] = done[a] = done[b] = true;
       const Face before = first;
       first.corners = {x, q, p};
       second.corners = {q, y, p};
-      first.stand_for(second);  // each of the two polygons lies on both
+      first.stand_for(second);  // each of the two new triangles covers parts of both polygons
       second.stand_for(before);
     }
   }

@@ -88,7 +88,7 @@ HALFLIGHT_INLINE bool tells_size(const Change& change) {
 HALFLIGHT_INLINE std::string sentence(const Change& change) {
   const intake::detail::Wording& wording = intake::detail::wordings[static_cast<std::size_t>(change.kind)];
   std::string text = change.count == 1 ? wording.one : wording.several;
-  if (!tells_size(change)) {  // exactly there, or up to rounding
+  if (!tells_size(change)) {  // exactly there, or within rounding
     for (const std::string_view beside : {", @ beside it", ", beside it by @", ", beside them by up to @"}) {
       const std::size_t at = text.find(beside);
       if (at != std::string::npos) { text.erase(at, beside.size()); }

@@ -26,9 +26,9 @@ namespace radiosity::intake {
 namespace detail {
 
 inline constexpr std::size_t most_corners = 1024;  // the search for self-intersections is quadratic
-inline constexpr std::size_t most_split = 20'000;  // so is that for triangles: two seconds
+inline constexpr std::size_t most_split = 20'000;  // triangulation is quadratic, too: two seconds for this many
 
-// Takes away a b b c and a b a.
+// Replaces a b b c by a b c, and a b a by a.
 inline void simplify(std::vector<std::uint32_t>& corners) {
   for (bool changed = true; changed && corners.size() > 2;) {
     changed = false;
@@ -42,7 +42,7 @@ inline void simplify(std::vector<std::uint32_t>& corners) {
   }
 }
 
-// The smallest extent of a triangle, 0 of one without area; of other polygons the area over the extent.
+// Height of a triangle over its longest side, 0 if it has no area; for other polygons the area divided by the extent.
 inline double width(std::span<const glm::dvec3> p) {
   double longest = 0.0;
   for (std::size_t i = 0; i < p.size(); ++i) { longest = std::max(longest, glm::length(p[(i + 1) % p.size()] - p[i])); }
@@ -54,7 +54,8 @@ inline bool nearly_planar(const raycast::Plane& plane, std::span<const glm::dvec
   return plane.slack <= std::min(tolerance, 1e-4 * brep::extent(outline));
 }
 
-// A polygon that crosses itself may have no area although its triangles have.
+// Does the triangulation have a triangle that is not a sliver? A polygon that crosses itself may have no vector area although
+// its triangles have.
 inline bool has_triangles(Working& mesh, const Face& face) {
   const std::vector<std::array<std::uint32_t, 3>> triangles = brep::ears(mesh.outline(face));
   return std::any_of(triangles.begin(), triangles.end(), [&](const std::array<std::uint32_t, 3>& t) {
@@ -62,8 +63,8 @@ inline bool has_triangles(Working& mesh, const Face& face) {
   });
 }
 
-// Triangles that cover a planar outline twice in places have more area than its vector area; those of an outline that runs along a bridge
-// edge to a hole, around it and back cover it once.
+// Triangles that cover parts of a planar outline twice have more area than its vector area. Those of an outline that follows a bridge
+// edge to a hole, around it and back, cover it once.
 inline bool crosses_itself(std::span<const glm::dvec3> outline, std::span<const std::array<std::uint32_t, 3>> triangles) {
   double covered = 0.0;
   for (const auto& [a, b, c] : triangles) { covered += 0.5 * glm::length(glm::cross(outline[b] - outline[a], outline[c] - outline[a])); }
@@ -140,7 +141,7 @@ HALFLIGHT_INLINE void split_faulty(Working& mesh, bool strict) {
       mesh.changed(how, face.polygon, flat ? 0.0 : slack);
     }
     const std::vector<std::uint32_t> corners = std::move(face.corners);
-    face.corners.clear();  // of which each triangle would get a copy
+    face.corners.clear();  // emptied, so that the copies below do not include them
     for (const auto& [a, b, c] : triangles) {
       Face triangle = face;
       triangle.corners = {corners[a], corners[b], corners[c]};
@@ -150,15 +151,16 @@ HALFLIGHT_INLINE void split_faulty(Working& mesh, bool strict) {
   mesh.faces = std::move(faces);
 }
 
-// Each vertex is projected on the planes of its faces in turn (Kaczmarz 1937), which converges to a point of all of them near the first.
+// Projects each vertex onto the planes of its faces in turn (Kaczmarz 1937), which converges to a point of all planes near the original
+// position.
 HALFLIGHT_INLINE void flatten(Working& mesh) {
   std::vector<raycast::Plane> planes;
-  std::vector<std::uint32_t> polygons;                        // of the planes
+  std::vector<std::uint32_t> polygons;                        // polygon of each plane
   std::vector<std::pair<std::uint32_t, std::uint32_t>> uses;  // vertex, plane
   bool any = false;
   for (const Face& face : mesh.faces) {
     const std::span<const glm::dvec3> outline = mesh.outline(face);
-    if (outline.size() == 3) { continue; }  // planar wherever its corners go
+    if (outline.size() == 3) { continue; }  // a triangle is planar in any case
     const raycast::Plane plane = raycast::plane_of(outline);
     if (!detail::nearly_planar(plane, outline, mesh.tolerance)) { continue; }
     any = any || plane.slack > 0.0;
@@ -170,7 +172,7 @@ HALFLIGHT_INLINE void flatten(Working& mesh) {
   std::sort(uses.begin(), uses.end());
   for (std::size_t first = 0, end = 0; first < uses.size(); first = end) {
     const std::uint32_t vertex = uses[first].first;
-    std::uint32_t off = uses[first].second;  // the plane from which a corner is farthest
+    std::uint32_t off = uses[first].second;  // the plane with the largest deviation of corners
     for (end = first; end < uses.size() && uses[end].first == vertex; ++end) {
       off = planes[uses[end].second].slack > planes[off].slack ? uses[end].second : off;
     }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Every face for itself: what it takes until each is a planar simple polygon with an area (raycast::polygon_fault finds nothing), and no
-// two faces are the same. A face is nearly planar when its corners leave its plane by at most the tolerance of welding and a ten-thousandth
-// of its extent: that is the rounding of six digits, or of single precision. It becomes planar by moving vertices, the others by cuts.
+// Repairs single faces until each is a planar simple polygon with an area (raycast::polygon_fault finds nothing) and no two faces are the
+// same. A face is nearly planar if its corners leave its plane by at most the tolerance of welding and a ten-thousandth of its extent,
+// which is the rounding of six digits or of single precision. A nearly planar face is made planar by moving vertices, others by cutting.
 
 #include <span>
 #include <vector>
@@ -14,18 +14,18 @@
 
 namespace radiosity::intake {
 
-// Corners that are repeated in a row, and spikes, are taken away. Faces without three corners, without area, or narrower than the tolerance
-// are left out.
+// Removes repeated consecutive corners and spikes; then removes faces with fewer than three corners, without area, or narrower than the
+// tolerance.
 void drop_degenerate(Working& mesh);
 
-// Faces with the same corners in the same order as a later one are left out: the later one covers the earlier (as objects do).
-// `among`: only those faces; empty: all.
+// Removes faces with the same corners in the same order as a later one, because the later one covers the earlier (as with objects).
+// `among`: only these faces; empty: all.
 void drop_duplicates(Working& mesh, const std::vector<bool>& among = {});
 
-// Faces that are no simple polygons, or not nearly planar, are cut into triangles. `strict`: those that are nearly planar, too.
+// Cuts faces that are not simple polygons, or not nearly planar, into triangles. `strict`: also those that are only nearly planar.
 void split_faulty(Working& mesh, bool strict);
 
-// Moves vertices, each by at most the tolerance of welding, into the planes of the faces around them that are nearly planar.
+// Makes nearly planar faces planar: moves vertices into the planes of the faces around them, each by at most the tolerance of welding.
 void flatten(Working& mesh);
 
 // Is this a simple polygon that is planar or nearly so?

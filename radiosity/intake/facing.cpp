@@ -28,15 +28,15 @@
 namespace radiosity::intake {
 namespace detail {
 
-// The pieces by consecutive numbers, and their borders.
+// The pieces, numbered consecutively, and their borders.
 struct PieceBorders {
-  std::vector<std::uint32_t> piece;  // of a face
+  std::vector<std::uint32_t> piece;  // by face: its piece
   std::uint32_t pieces = 0;
-  std::vector<double> length, met;  // of a piece: of its border; of the part of that on which other faces lie
-  std::vector<double> divides;      // of a piece: the part of its border on which two other faces lie, one on each side of it
-  std::vector<double> area, backs;  // of a piece; of those of its faces that were given for both sides
-  std::vector<raycast::Box> box;    // of a piece
-  std::vector<bool> twins;          // of a piece: at the place of each of its faces lies another one, or it was given for both sides
+  std::vector<double> length, met;  // by piece: length of its border, and of the part of it on which other faces lie
+  std::vector<double> divides;      // by piece: length of border with another face on each side
+  std::vector<double> area, backs;  // by piece: its area, and the area of its faces with polygons for both sides
+  std::vector<raycast::Box> box;    // by piece
+  std::vector<bool> twins;          // by piece: does each of its faces coincide with another one, or have polygons for both sides?
 
   explicit PieceBorders(Working& mesh) {
     std::vector<std::uint32_t> number(mesh.faces.size(), none);
@@ -61,7 +61,7 @@ struct PieceBorders {
     measure_across_faces(mesh, measure(mesh));
   }
 
-  // Do closed pieces lie in the bounds of this one? Then it is rather the walls of a room than a part of a solid.
+  // Do closed pieces lie in the bounds of this one? Then it is probably the walls of a room rather than a part of a solid.
   [[nodiscard]] bool surrounds(std::uint32_t p) const {
     for (std::uint32_t q = 0; q < pieces; ++q) {
       if (length[q] == 0.0 && q != p && box[p].contains(box[q].lo) && box[p].contains(box[q].hi)) { return true; }
@@ -90,7 +90,8 @@ struct PieceBorders {
     std::uint32_t low, high, piece, place, face;
   };
 
-  // An edge is met where a face of another piece lies on it, and not only one at the same place. Gives the edges of borders that are not.
+  // An edge is met if a face of another piece lies on it, other than a face with the same corners. Returns the border edges that are not
+  // met.
   std::vector<Side> measure(const Working& mesh) {
     std::vector<Side> sides, open;
     for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) {
@@ -124,8 +125,8 @@ struct PieceBorders {
     return open;
   }
 
-  // An edge is met, too, where it crosses a face: a leg without ends stands on the floor, of which no edge is near. That face goes on to
-  // either side. What lies flat on a face does not cross it.
+  // An edge is also met if it crosses a face: a leg without end faces stands on the floor far from the floor's edges. That face continues
+  // on both sides of it. A face that lies flat on another one does not cross it.
   void measure_across_faces(Working& mesh, const std::vector<Side>& open) {
     if (open.empty()) { return; }
     std::vector<raycast::Box> boxes;
@@ -139,7 +140,7 @@ struct PieceBorders {
     }
     const raycast::Bvh bvh(boxes);
     constexpr int places = 4;
-    constexpr double tol_flat = 0.98;  // cosine between faces, of which one lies on the other
+    constexpr double tol_flat = 0.98;  // cosine of the angle between faces that lie on each other
     for (const Side& side : open) {
       const glm::dvec3 &a = mesh.positions[side.low], &b = mesh.positions[side.high];
       for (int k = 0; k < places; ++k) {
@@ -157,11 +158,11 @@ struct PieceBorders {
     }
   }
 
-  std::vector<std::uint32_t> place_;  // of a face: the same number where other faces have the same corners
+  std::vector<std::uint32_t> place_;  // by face: an equal number for faces with the same corners
 };
 
-// A wall without thickness between two rooms, or between two parts of one: light falls on both sides, and the other one has no polygon
-// of its own.
+// Is the piece a wall without thickness between two rooms or parts of a room? Light falls on both of its sides, and the other side has no
+// polygon of its own.
 inline bool is_divider(const PieceBorders& borders, const PieceView& view, std::uint32_t p) {
   constexpr double tol_dark = 1e-9, much_lighter = 10.0, tol_covered = 0.01;
   const double f = view.front.light, b = view.back.light;
@@ -169,7 +170,7 @@ inline bool is_divider(const PieceBorders& borders, const PieceView& view, std::
          std::max(f, b) <= much_lighter * std::min(f, b);
 }
 
-// 1: the front is where the piece is seen from, -1: the back is, 0: nobody knows.
+// 1: the front is the visible side, -1: the back is, 0: undecided.
 inline int seen_side(const PieceView& view, bool twins) {
   constexpr double tol_dark = 1e-9, much_longer = 2.0;
   const double much_lighter = twins ? 100.0 : 10.0, f = view.front.light, b = view.back.light;
@@ -193,7 +194,7 @@ HALFLIGHT_INLINE void turn_to_light(Working& mesh, std::span<const Material> mat
   for (std::uint32_t p = 0; p < borders.pieces; ++p) {
     if (!asks(p)) { continue; }
     side_of[p] = detail::seen_side(views[p], borders.twins[p]);
-    // The sun lights the outside of a house more than its rooms, which are seen all the same.
+    // A house is lit more strongly outside, by the sun, than in its rooms; its walls must stay visible from inside all the same.
     const bool outwards = side_of[p] < 0 && views[p].back.way > views[p].front.way;
     if (outwards && borders.surrounds(p)) { side_of[p] = 0; }
   }
@@ -217,7 +218,7 @@ HALFLIGHT_INLINE void turn_to_light(Working& mesh, std::span<const Material> mat
     if (face.back != none) { leave_out_backs(mesh, face); }
     face.back = none;
   }
-  drop_duplicates(mesh, asked);  // twins of which one was turned
+  drop_duplicates(mesh, asked);  // twins, one of which has been turned
 }
 
 }  // namespace radiosity::intake

@@ -28,7 +28,7 @@ HALFLIGHT_INLINE Intake take_in(const PolygonView& input, std::span<const Materi
   intake::match_diagonals(mesh);
   intake::join_backs(mesh);
   intake::close_t_joints(mesh);
-  intake::drop_duplicates(mesh);  // those that had no joint
+  intake::drop_duplicates(mesh);  // including those that had no T-joint
   intake::join_backs(mesh);
   intake::join_groups(mesh);
   intake::split_faulty(mesh, false);

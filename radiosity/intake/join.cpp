@@ -18,14 +18,14 @@
 namespace radiosity::intake {
 namespace detail {
 
-// An edge of a face.
+// An edge as seen from one of its faces.
 struct FaceEdge {
   std::uint32_t low, high, group, face;
 
   [[nodiscard]] auto ends() const { return std::pair(low, high); }
 };
 
-// Of all faces, those between the same vertices after each other, those of one group after each other.
+// The edges of all faces, sorted by their vertices, then by group.
 inline std::vector<FaceEdge> face_edges(std::span<const Face> faces) {
   std::vector<FaceEdge> edges;
   for (std::uint32_t f = 0; f < faces.size(); ++f) {
@@ -41,7 +41,7 @@ inline std::vector<FaceEdge> face_edges(std::span<const Face> faces) {
   return edges;
 }
 
-// The parts of groups that hang together, and where their borders meet.
+// The connected parts of groups, and where their borders meet.
 class Borders {
  public:
   explicit Borders(std::span<const Face> faces) : edges_(face_edges(faces)), part_(faces.size()), open_(faces.size(), false) {
@@ -57,7 +57,7 @@ class Borders {
 
   [[nodiscard]] bool open(std::uint32_t face) { return open_[part_.find(face)]; }
 
-  // Of each face, the number of the shell that its part closes with others, or none.
+  // By face: the number of the shell that its part closes together with others, or none.
   [[nodiscard]] std::vector<std::uint32_t> shells() {
     while (leave_out_what_ends()) {}
     brep::detail::UnionFind joined(open_.size());
@@ -86,7 +86,7 @@ class Borders {
       visit(std::span(edges_).subspan(first, end - first));
     }
   }
-  // The sides that are the only ones of their group here; once parts are left out, of those that remain.
+  // The sides that belong to the border of their group; ignores parts that have been left out.
   [[nodiscard]] std::vector<FaceEdge> border_of(std::span<const FaceEdge> edge) {
     std::vector<FaceEdge> border;
     for (std::size_t i = 0; i < edge.size(); ++i) {
@@ -97,7 +97,8 @@ class Borders {
   }
   [[nodiscard]] bool gone(std::uint32_t face) { return !gone_.empty() && gone_[part_.find(face)]; }
 
-  // A part with an edge that matches no other closes no shell and is left out. Without it other parts may have such an edge in turn.
+  // Leaves out parts with a border edge that matches no other, because they cannot close a shell. This may leave other parts with such an
+  // edge, so it is repeated while it returns true.
   bool leave_out_what_ends() {
     gone_.resize(open_.size(), false);
     std::vector<std::uint32_t> ends;
@@ -113,14 +114,14 @@ class Borders {
   }
 
   std::vector<FaceEdge> edges_;
-  brep::detail::UnionFind part_;   // of faces
-  std::vector<bool> open_, gone_;  // of the face that stands for a part
+  brep::detail::UnionFind part_;   // union-find over faces
+  std::vector<bool> open_, gone_;  // by the face that represents a part
 };
 
 }  // namespace detail
 
 HALFLIGHT_INLINE void join_groups(Working& mesh) {
-  Working trial;  // the open parts alone, as one shell
+  Working trial;  // only the open parts, as one shell
   trial.positions = mesh.positions;
   trial.tolerance = mesh.tolerance;
   std::vector<std::uint32_t> origin;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Groups that close a shell together: the walls of a room in one object of the file, its floor and its ceiling in others. Alone each is
-// open, and nobody could tell its inside from its outside.
+// Joins groups that together close a shell: a file may have the walls of a room in one object, its floor and its ceiling in others. Each
+// of them alone is open, so its inside and outside could not be told apart.
 //
 //      group "walls"     group "ceiling"        one shell
 //      *---------*       *-----------*          *---------*
@@ -11,15 +11,15 @@
 //      |         |       *-----------*          |         |
 //      *---------*       group "floor"          *---------*
 //
-// Borders match where their vertices are one (weld.hpp), or lie on an edge of the other within the same tolerance (t_joints.hpp). Only
-// where every edge of some open parts matches one other are they joined, so that things which merely touch stay apart. Materials, names
-// and objects stay those of the groups.
+// Borders match if their vertices are the same (weld.hpp), or lie on an edge of the other one within the same tolerance (t_joints.hpp).
+// Open parts are joined only if each of their border edges matches exactly one other, so that objects which merely touch stay separate.
+// Materials, names and objects remain those of the groups.
 
 #include <radiosity/intake/working.hpp>
 
 namespace radiosity::intake {
 
-// Gives the faces of groups that close a shell together one number of a shell, and closes the T-joints between them.
+// Gives the faces of groups that together close a shell a common shell number, and closes the T-joints between them.
 void join_groups(Working& mesh);
 
 }  // namespace radiosity::intake

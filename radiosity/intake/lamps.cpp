@@ -26,14 +26,14 @@
 namespace radiosity::intake {
 namespace detail {
 
-inline constexpr double tol_flush = 1e-3;  // of a lamp's size: what lies as near to a wall is meant to lie on it
+inline constexpr double tol_flush = 1e-3;  // relative to a lamp's size: a lamp as near as this to a wall is meant to lie on it
 
 inline bool shines(const Face& face, std::span<const Material> materials) {
   const auto is_lamp = [&](std::uint32_t m) { return m != none && !is_black(materials[m].emission); };
   return is_lamp(face.material) || is_lamp(face.back);
 }
 
-// Of each face: does it shine, and does it belong to an open component?
+// By face: does it emit and belong to an open component?
 inline std::vector<bool> open_lamps(const Working& mesh, const Topology& topology, std::span<const Material> materials) {
   std::vector<bool> open(topology.components, false);
   for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) {
@@ -46,15 +46,15 @@ inline std::vector<bool> open_lamps(const Working& mesh, const Topology& topolog
   return lamp;
 }
 
-// A face on which, or beside which, the middle of a lamp lies, within a thousandth of the lamp's size and parallel to it.
+// A face parallel to a lamp, on which or near which the lamp's centre lies, within a thousandth of the lamp's size.
 struct Wall {
   std::uint32_t face = 0;
   raycast::Plane plane;
-  double height = 0.0;    // of the lamp's middle above it
-  bool opposite = false;  // they look opposite ways
+  double height = 0.0;    // of the lamp's centre above the face
+  bool opposite = false;  // do they have opposite orientations?
 };
 
-// Not those before which the lamp hangs free and looks away from them.
+// The walls at a lamp, except those in front of which it hangs free, facing away from them.
 inline std::vector<Wall> walls_beside(Working& mesh, const Topology& topology, const raycast::Bvh& bvh, std::uint32_t lamp) {
   const double size = std::sqrt(brep::area(mesh.outline(mesh.faces[lamp]))), reach = std::max(4.0 * mesh.tolerance, tol_flush * size);
   const glm::dvec3 normal = raycast::plane_of(mesh.outline(mesh.faces[lamp])).normal,
@@ -76,7 +76,7 @@ inline std::vector<Wall> walls_beside(Working& mesh, const Topology& topology, c
   return walls;
 }
 
-// Is there anything that a lamp at this face would light on the side that `normal` points to, beyond `height`?
+// Does anything that the lamp could light lie on the side to which `normal` points, more than `height` away?
 inline bool any_above(const Working& mesh, std::uint32_t face, const glm::dvec3& normal, double height) {
   const double at = glm::dot(normal, mesh.positions[mesh.faces[face].corners[0]]) + height;
   return std::any_of(mesh.faces.begin(), mesh.faces.end(), [&](const auto& other) {
@@ -85,10 +85,10 @@ inline bool any_above(const Working& mesh, std::uint32_t face, const glm::dvec3&
   });
 }
 
-// The face that is close before the middle of a lamp, while behind it the way is free. `side`: 1; -1: close behind it, and free before it.
+// The face close in front of a lamp's centre, if the way behind it is free. `side`: 1; or -1 for close behind it and free in front.
 inline std::optional<std::uint32_t> face_before(Working& mesh, const raycast::Bvh& bvh, const std::vector<bool>& lamp, std::uint32_t face,
                                                 double side) {
-  constexpr double close = 0.02, free = 0.2;  // of the lamp's size
+  constexpr double close = 0.02, free = 0.2;  // relative to the lamp's size
   const std::span<const glm::dvec3> outline = mesh.outline(mesh.faces[face]);
   const double size = std::sqrt(brep::area(outline));
   const glm::dvec3 normal = side * raycast::plane_of(outline).normal, middle = brep::centroid(outline);
@@ -100,7 +100,7 @@ inline std::optional<std::uint32_t> face_before(Working& mesh, const raycast::Bv
     const raycast::Plane plane = raycast::plane_of(mesh.outline(mesh.faces[other]));
     const double along = glm::dot(plane.normal, normal), height = glm::dot(plane.point - middle, plane.normal);
     if (other == face || along == 0.0 || raycast::RayFrame(through).winding(mesh.outline(mesh.faces[other])) == 0) { return false; }
-    const double way = height / along;  // along the lamp's normal
+    const double way = height / along;  // distance along the lamp's normal
     if (way < 0.0 && way > -free * size) { blocked = true; }
     if (way > 0.0 && way <= nearest && std::abs(along) > 0.99 && !lamp[other]) {
       nearest = way;
@@ -119,7 +119,7 @@ HALFLIGHT_INLINE std::vector<FlushFace> lay_lamps(Working& mesh, const Topology&
   if (std::none_of(lamp.begin(), lamp.end(), [](bool is) { return is; })) { return found; }
   std::vector<raycast::Box> boxes;
   std::vector<std::uint32_t> component(mesh.positions.size(), none);
-  std::vector<bool> shared(mesh.positions.size(), false);  // by components
+  std::vector<bool> shared(mesh.positions.size(), false);  // does the vertex belong to several components?
   for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) {
     boxes.emplace_back();
     for (const std::uint32_t v : mesh.faces[f].corners) {
@@ -164,8 +164,8 @@ HALFLIGHT_INLINE std::vector<FlushFace> lay_lamps(Working& mesh, const Topology&
 HALFLIGHT_INLINE void turn_lamps(Working& mesh, const Topology& topology, std::span<const Material> materials,
                                  std::span<const FlushFace> flush, const std::vector<bool>& backs, Shells& shells) {
   struct Lamp {
-    double area = 0.0, front = 0.0, back = 0.0;  // of what shines; of that with something right before, behind it
-    double gap_before = 0.0, gap_behind = 0.0;   // of that with the front of something close before it, behind it
+    double area = 0.0, front = 0.0, back = 0.0;  // emitting area; parts of it with something directly in front, directly behind
+    double gap_before = 0.0, gap_behind = 0.0;   // parts of it with the front of something close in front, close behind
     bool one_sided = true, both_shine = true;
     std::uint32_t polygon = none;
   };

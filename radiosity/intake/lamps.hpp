@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Lamps that lie flush in a wall or a ceiling: a quadrilateral in the plane of a larger one. Programs in which both sides of a lamp shine
-// write them either way up, and rounding puts them before or behind the surface; a solver would lose all of their light in the wall. So
-// such a lamp is laid into the plane, and where it shows its front to the back of the surface that it lies on, it is turned (shells.hpp,
-// objects.hpp).
+// Lamps that lie flush in a wall or a ceiling: a quadrilateral in the plane of a larger one. Programs in which both sides of a lamp emit
+// write them with either orientation, and rounding puts them in front of or behind the surface; without correction all of their light
+// would be lost in the wall. So such a lamp is moved into the plane, and if its front faces the back of the surface on which it lies, it
+// is turned (shells.hpp, objects.hpp).
 
 #include <cstdint>
 #include <span>
@@ -17,25 +17,26 @@
 
 namespace radiosity::intake {
 
-// A face of an open lamp and a face of something else on which its middle lies.
+// A face of an open lamp, and another face on which its centre lies.
 struct FlushFace {
   std::uint32_t lamp = 0, under = 0;
-  bool opposite = false;                                                // they look opposite ways
-  enum class Gap : unsigned char { no, before, behind } gap = Gap::no;  // they lie apart: the face is close before the lamp, behind it
+  bool opposite = false;  // do they have opposite orientations?
+  // If not in contact: is the other face close in front of the lamp, or close behind it?
+  enum class Gap : unsigned char { no, before, behind } gap = Gap::no;
 };
 
-// Finds all of them, where the lamp lies on the other face within four tolerances of welding, which is as far as the rounding of six digits
-// may take a corner and a plane apart, or within a thousandth of its own size behind it or with its front to it. Moves the vertices of the
-// lamp, as far as no other surface has them, into the plane of the nearest. A lamp that lies on nothing, but has a parallel face before or
-// behind it that is at most a fiftieth of its size away, with the other way free for ten times as far, and something to light
-// beyond, is found with that face.
+// Finds all such pairs. A lamp lies on another face if it is within four tolerances of welding (the largest gap that the rounding of six
+// digits can cause between a corner and a plane), or within a thousandth of its own size behind the face or with its front to it. Moves
+// the vertices of the lamp, unless they belong to another surface, too, into the plane of the nearest face. A lamp that lies on nothing
+// is also paired with a parallel face in front of it or behind it at a distance of at most a fiftieth of its size, if the other direction
+// is free for ten times that distance and contains something to light.
 [[nodiscard]] std::vector<FlushFace> lay_lamps(Working& mesh, const Topology& topology, std::span<const Material> materials);
 
-// Lamps more than half of which lies on something shine away from it, on that side alone. Where they lie between two sides, as of a wall
-// without thickness, they stay as they are. A panel under a ceiling was not meant to light the gap: where one side looks at the front of
-// something close before it, lamps of one side shine the other way, and of lamps of two sides the other one is left. From a gap of a
-// fiftieth of a lamp's size some percent of the light would get out, and no mesh is fine enough to tell how much. `backs`: of each face,
-// whether its back is seen where it is a surface. The roles of the shells are known.
+// A lamp of which more than half lies on other faces emits only on the side away from them. Lamps that lie between two visible sides, as
+// of a wall without thickness, stay unchanged. If one side of a lamp faces the front of something close to it, as a panel under a
+// ceiling, it was not meant to light the gap: a one-sided lamp is turned, and a two-sided lamp keeps only its other side. From a gap of a
+// fiftieth of the lamp's size only some percent of the light would escape, and no mesh is fine enough to compute how much. `backs`: by
+// face, is its back visible if it becomes a surface? The roles of the shells must be known.
 void turn_lamps(Working& mesh, const Topology& topology, std::span<const Material> materials, std::span<const FlushFace> flush,
                 const std::vector<bool>& backs, Shells& shells);
 

@@ -63,7 +63,7 @@ class Merger {
     std::vector<std::uint32_t> parts;
   };
 
-  // The faces around the seed that lie in its plane.
+  // Collects the faces connected with the seed that lie in its plane.
   void grow(std::uint32_t seed) {
     const Face& first = mesh_.faces[seed];
     const raycast::Plane& plane = planes_[seed];
@@ -106,7 +106,8 @@ class Merger {
   }
 
   void keep(std::vector<std::uint32_t> outline, const std::vector<std::uint32_t>& parts) {
-    const std::uint32_t first = *std::min_element(parts.begin(), parts.end());  // faces are in the order of their polygons
+    // The first polygon, because faces are in the order of their polygons.
+    const std::uint32_t first = *std::min_element(parts.begin(), parts.end());
     Merged merged{mesh_.faces[first], parts};
     merged.face.corners = std::move(outline);
     for (const std::uint32_t f : parts) {
@@ -116,9 +117,9 @@ class Merger {
     merged_.push_back(std::move(merged));
   }
 
-  // The outline of the region, when it is one simple polygon.
+  // The outline of the region, if it is a single simple polygon.
   [[nodiscard]] std::optional<std::vector<std::uint32_t>> single_outline(std::uint32_t seed) {
-    std::unordered_map<std::uint32_t, std::uint32_t> begins;  // from the vertex to the side
+    std::unordered_map<std::uint32_t, std::uint32_t> begins;  // from a vertex to the border side that begins there
     std::uint32_t start = none;
     for (const std::uint32_t f : faces_) {
       for (std::uint32_t s = topology_.first[f]; s < topology_.first[f + 1]; ++s) {
@@ -145,7 +146,7 @@ class Merger {
     struct Part {
       std::vector<std::uint32_t> corners, faces;
     };
-    std::unordered_map<std::uint32_t, Part> parts;  // by the face that stands for it
+    std::unordered_map<std::uint32_t, Part> parts;  // by the face that represents the part
     std::unordered_map<std::uint32_t, std::uint32_t> stands_for;
     std::vector<std::pair<double, std::uint32_t>> sides;
     for (const std::uint32_t f : faces_) {
@@ -177,7 +178,7 @@ class Merger {
     }
   }
 
-  // Both polygons in one, across the side from u to v of the first one; when that is convex.
+  // Joins two polygons across the side from u to v of the first one; nothing if the result is not convex.
   [[nodiscard]] std::optional<std::vector<std::uint32_t>> join(std::vector<std::uint32_t> a, std::vector<std::uint32_t> b, std::uint32_t u,
                                                                std::uint32_t v) {
     if (a.size() + b.size() > longest_outline) { return std::nullopt; }
@@ -185,7 +186,7 @@ class Merger {
     std::rotate(b.begin(), std::find(b.begin(), b.end(), u), b.end());  // u ... v
     if (a.back() != u || b.back() != v) { return std::nullopt; }
     a.insert(a.end(), b.begin() + 1, b.end() - 1);
-    // Where they have more sides in common, there and back: a b a.
+    // If they have more sides in common, the joined outline runs there and back (a b a); such spikes are removed.
     for (bool spike = true; spike && a.size() > 3;) {
       spike = false;
       for (std::size_t i = 0; i < a.size() && a.size() > 3; ++i) {
@@ -229,10 +230,10 @@ class Merger {
   }
 
  public:
-  // A corner goes when it is straight in all of the faces that have it, which are two neighbours, or one.
+  // A corner is removed if it is straight in all faces that have it, and these are at most two.
   static void take_away_straight_corners(Working& mesh) {
     struct Seen {
-      std::uint32_t faces = 0, low = none, high = none;  // the corners beside it
+      std::uint32_t faces = 0, low = none, high = none;  // low, high: the adjacent corners
       bool straight = true;
     };
     std::vector<Seen> seen(mesh.positions.size());
@@ -258,7 +259,7 @@ class Merger {
     for (Face& face : mesh.faces) {
       const auto bent =
           std::count_if(face.corners.begin(), face.corners.end(), [&](auto v) { return !seen[v].straight || seen[v].faces > 2; });
-      if (bent < 3) {  // the last of a face that would vanish
+      if (bent < 3) {  // keep the corners of a face that would otherwise vanish
         for (const std::uint32_t v : face.corners) { seen[v].straight = false; }
       }
     }
@@ -273,7 +274,7 @@ class Merger {
   std::vector<raycast::Plane> planes_;
   std::vector<std::uint32_t> face_of_, region_;
   std::vector<bool> gone_;
-  std::vector<std::uint32_t> faces_;  // of the region that is looked at
+  std::vector<std::uint32_t> faces_;  // faces of the current region
   std::vector<Merged> merged_;
 };
 

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Coplanar neighbours of one material become one face: a wall of two triangles, or of two hundred, is one root of the hierarchy. The
-// topology makes that easy, because each face knows its neighbours.
+// Coplanar neighbours of one material become one face: a wall of two triangles, or of two hundred, becomes one root of the hierarchy.
+// Topology makes this easy, because each face knows its neighbours.
 //
-// A region of coplanar faces with one simple outline becomes that outline, convex or not. Where it has holes its faces are joined as long
-// as they stay convex. Corners on a straight line that no other face needs are taken away.
+// A region of coplanar faces with a single simple outline becomes a face with that outline, convex or not. In a region with holes, faces
+// are joined as long as the result is convex. Corners on a straight line that no other face needs are removed.
 
 #include <radiosity/intake/topology.hpp>
 #include <radiosity/intake/working.hpp>
 
 namespace radiosity::intake {
 
-// Afterwards the topology no longer fits. Faces may be nearly planar only (clean.hpp); vertices are moved to make them planar, and where
-// that does not succeed the faces stay as they were.
+// The topology is invalid afterwards. Faces may be only nearly planar (clean.hpp); vertices are moved to make them planar, and if that
+// fails the faces stay unchanged.
 void merge_coplanar(Working& mesh, const Topology& topology);
 
 }  // namespace radiosity::intake

@@ -55,7 +55,7 @@ class ObjectMaker {
       add_surface(groups[g].front, false);
       add_surface(groups[g].back, true);
     }
-    for (std::uint32_t g = 0; g < groups.size(); ++g) {  // after what they lie on, so that they cover it
+    for (std::uint32_t g = 0; g < groups.size(); ++g) {  // after the surfaces on which they lie, so that they cover these
       group_ = g;
       add_surface(groups[g].flush_front, false);
       add_surface(groups[g].flush_back, true);
@@ -108,7 +108,8 @@ class ObjectMaker {
     add(faces, component.role, false);
   }
 
-  // That of the group; with a number where it has several objects. A solid of several groups has their names, three at most.
+  // Objects get the name of their group, with a number if the group has several objects. A solid of several groups gets their
+  // names, at most three.
   void name_objects() {
     std::vector<std::size_t> count(std::max<std::size_t>(input_.names.size(), 1)), number(count.size());
     for (const std::uint32_t g : group_of_) {
@@ -124,7 +125,7 @@ class ObjectMaker {
     }
   }
 
-  // The next two groups of these faces beside the one whose objects are made.
+  // Up to two further groups of these faces, besides the current one.
   [[nodiscard]] std::vector<std::uint32_t> other_groups(const std::vector<std::uint32_t>& faces) const {
     std::vector<std::uint32_t> groups;
     for (const std::uint32_t f : faces) {
@@ -147,7 +148,7 @@ class ObjectMaker {
     return result;
   }
 
-  // A surface without a border would be a solid: one of its faces becomes an object of its own.
+  // A surface without a border would be taken for a solid, so one of its faces becomes a separate object.
   void add_surface(std::vector<std::uint32_t> faces, bool back) {
     const auto on_border = [&](std::uint32_t f) {
       for (std::uint32_t s = topology_.first[f]; s < topology_.first[f + 1]; ++s) {
@@ -163,7 +164,7 @@ class ObjectMaker {
     if (!faces.empty()) { add(faces, Role::surface, back); }
   }
 
-  // The normals of a room are those of the solid that it is the inside of, so its faces are turned as those of a back are.
+  // The faces of a room are reversed like those of a back, because its normals are those of the solid whose inside it is.
   void add(const std::vector<std::uint32_t>& faces, Role role, bool back) {
     std::vector<glm::dvec3> positions;
     std::vector<std::vector<std::uint32_t>> corners;
@@ -194,7 +195,7 @@ class ObjectMaker {
       others_.push_back(other_groups(faces));
       return;
     }
-    for (std::size_t i = 0; i < corners.size(); ++i) {  // no surface after all: polygons
+    for (std::size_t i = 0; i < corners.size(); ++i) {  // the surface could not be made: add its faces as separate polygons
       std::vector<glm::dvec3> outline;
       for (const std::uint32_t v : corners[i]) { outline.push_back(positions[v]); }
       if (placement.inside) { std::reverse(outline.begin(), outline.end()); }
@@ -209,7 +210,7 @@ class ObjectMaker {
     }
   }
 
-  // Of the object that is added next.
+  // Records the origin of a sheet of the object that will be added next.
   void came_from(std::uint32_t face, std::uint32_t sheet, bool back) {
     sheets_.push_back({{static_cast<std::uint32_t>(objects_.size()), sheet, back != is_turned(face)}, face});
   }
@@ -219,12 +220,12 @@ class ObjectMaker {
   const PolygonView& input_;
   const IntakeOptions& options_;
   Shells shells_;
-  std::vector<std::uint32_t> local_;    // of a vertex, in the object that is made
-  std::vector<std::uint32_t> face_of_;  // of a side
+  std::vector<std::uint32_t> local_;    // by vertex: its number in the current object
+  std::vector<std::uint32_t> face_of_;  // by side
   std::vector<SceneObject> objects_;
-  std::vector<std::uint32_t> group_of_;             // of an object
-  std::vector<std::vector<std::uint32_t>> others_;  // of an object: further groups that it has faces of
-  std::uint32_t group_ = 0;                         // whose objects are made
+  std::vector<std::uint32_t> group_of_;             // by object
+  std::vector<std::vector<std::uint32_t>> others_;  // by object: further groups of its faces
+  std::uint32_t group_ = 0;                         // the group whose objects are being made
   std::vector<SheetOrigin> sheets_;
 };
 
@@ -232,7 +233,7 @@ class ObjectMaker {
 
 HALFLIGHT_INLINE MadeObjects make_objects(Working& mesh, const Topology& topology, const PolygonView& input,
                                           std::span<const Material> materials, const IntakeOptions& options) {
-  const std::vector<FlushFace> flush = lay_lamps(mesh, topology, materials);  // before shells are measured
+  const std::vector<FlushFace> flush = lay_lamps(mesh, topology, materials);  // before shells are measured, because it moves vertices
   return detail::ObjectMaker(mesh, topology, input, materials, options, flush).run();
 }
 
@@ -251,7 +252,7 @@ HALFLIGHT_INLINE PolygonParts parts_of(const Working& mesh, std::span<const Shee
   const auto same = [](const auto& a, const auto& b) {
     return a.first == b.first && a.second.object == b.second.object && a.second.sheet == b.second.sheet && a.second.back == b.second.back;
   };
-  list.erase(std::unique(list.begin(), list.end(), same), list.end());  // a sheet may have come to one polygon twice
+  list.erase(std::unique(list.begin(), list.end(), same), list.end());  // a sheet may refer to the same polygon twice
   PolygonParts result;
   result.first.assign(polygons + 1, 0);
   for (const auto& [polygon, part] : list) {

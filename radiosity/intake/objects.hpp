@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// From faces to objects. A closed shell becomes a solid. A shell that holds a lamp or an eye is seen from inside. It becomes a cavity of
-// the solid around it, where there is one (walls with a thickness); a room, where everything else lies in it; or else a surface, because a
-// room counts as solid beyond its walls, where other things may stand. A shell that several groups close together (join.hpp) becomes a
-// surface, too, because an object belongs to one group. What is open becomes one surface for each group; where it has two sides, its back
-// is a surface of its own at the same place.
+// From faces to objects. A closed shell becomes a solid. A shell that contains a lamp or an eye is seen from inside: it becomes a cavity
+// of the solid around it, if there is one (walls with a thickness); a room, if everything else lies in it; otherwise a surface, because
+// the space beyond the walls of a room counts as solid and other objects may be there. A shell closed by several groups (join.hpp)
+// becomes surfaces, too, because an object belongs to one group. Open components become one surface per group; if such a surface has two
+// sides, its back is a separate surface at the same place.
 
 #include <cstddef>
 #include <cstdint>
@@ -19,9 +19,9 @@
 
 namespace radiosity::intake {
 
-// A sheet of an object and the face that became it.
+// A sheet of an object, and the face from which it was made.
 struct SheetOrigin {
-  PolygonPart part;  // `back`: of the face
+  PolygonPart part;  // `back`: does it show the back of the face?
   std::uint32_t face = 0;
 };
 
@@ -34,7 +34,7 @@ struct MadeObjects {
 [[nodiscard]] MadeObjects make_objects(Working& mesh, const Topology& topology, const PolygonView& input,
                                        std::span<const Material> materials, const IntakeOptions& options);
 
-// Of each of `polygons` polygons of the input, in the order of objects and sheets.
+// The parts of each of the `polygons` input polygons, in the order of objects and sheets.
 [[nodiscard]] PolygonParts parts_of(const Working& mesh, std::span<const SheetOrigin> sheets, std::size_t polygons);
 
 }  // namespace radiosity::intake

@@ -20,13 +20,13 @@
 namespace radiosity::intake {
 namespace detail {
 
-// All open surfaces together.
+// Measures of all open surfaces together.
 struct OpenSurfaces {
-  std::vector<double> area, opening;   // of a component; 0 of one that is closed or has its side. The opening: of flat lids on its borders
-  std::vector<double> border, met;     // of a component: lengths of its borders, and of the part where others have theirs
-  std::vector<std::uint32_t> first;    // of a component: its first polygon of the input
-  double whole = 0.0, all_open = 0.0;  // sums of these
-  double volume = 0.0;                 // with cones over the borders, from their middle on; negative when most look inwards
+  std::vector<double> area, opening;   // by component, 0 if it is closed or one-sided; opening: area of flat lids on its borders
+  std::vector<double> border, met;     // by component: length of its borders, and of the part that coincides with borders of others
+  std::vector<std::uint32_t> first;    // by component: its first input polygon
+  double whole = 0.0, all_open = 0.0;  // sums of area and opening
+  double volume = 0.0;  // signed volume, closed by cones over the borders from their centres; negative if most surfaces look inwards
 
   OpenSurfaces(Working& mesh, const Topology& topology, std::span<const Component> components)
       : area(components.size()), opening(area), border(area), met(area), first(components.size(), none), ends_(topology.vertices) {
@@ -63,14 +63,15 @@ struct OpenSurfaces {
     if (length > 0.0) { volume -= glm::dot(middle / length, normals) / 3.0; }
   }
 
-  // The walls of a room that is open somewhere: a cube without one side has a volume of -0.09 and openings of 0.2.
+  // Are these the walls of a room with openings? For a unit cube without one side, seen from inside, volume and opening are
+  // -0.09 and 0.2 relative to the area.
   [[nodiscard]] bool are_walls() const {
     constexpr double least_volume = 0.02, most_open = 0.6;
     return volume < -least_volume * std::pow(whole, 1.5) && all_open < most_open * whole;
   }
 
  private:
-  // Of a vertex on a border, from which one border edge goes on.
+  // A vertex on a border, and the border edge that begins there.
   struct End {
     glm::dvec3 position{0.0};
     std::uint32_t next = none, component = none;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Open surfaces of a model whose file does not say which of their sides are seen: a terrain, a cloth, a leaf, a cup without thickness. Half
-// of them are wound the other way than somebody looks at them. So they reflect on both sides; but not the walls of a room that is open
-// somewhere, into which one looks through the backs of those in front.
+// Open surfaces in models whose file does not say which of their sides are seen: a terrain, a cloth, a leaf, a cup without thickness.
+// About half of them have their backs towards the viewer, so they are made to reflect on both sides. Exception: the walls of a room with
+// an opening, because such a room is viewed through the backs of its front walls.
 
 #include <radiosity/intake/shells.hpp>
 #include <radiosity/intake/topology.hpp>
@@ -11,9 +11,10 @@
 
 namespace radiosity::intake {
 
-// To be called when the roles are found. Surfaces whose opening is less than a fiftieth of their area keep their one side: hardly anything
-// is seen through it. So do those that mostly end on each other, as the cells of a solid do that was cut into pieces. One that is alone and
-// looks inwards, and does not shine there, is turned where `may_turn`, as a closed shell with nothing in it is.
+// To be called when the roles are known. A surface whose opening is less than a fiftieth of its area keeps its one side, because hardly
+// anything is seen through the opening. So does a surface whose border mostly lies on others, as with the cells of a solid that was cut
+// into pieces. If `may_turn`, a single surface that looks inwards and does not emit there is turned, like a closed shell with nothing in
+// it.
 void show_both_sides(Working& mesh, const Topology& topology, bool may_turn, Shells& shells);
 
 }  // namespace radiosity::intake

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which shells are rooms, by the lamps and the eyes in them.
+// Decides which shells are rooms, from the lamps and eyes in them.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -148,7 +148,7 @@ HALFLIGHT_INLINE std::vector<Component*> Shells::find_rooms() {
     if (places.empty() || ++lamps > most_lamps) { continue; }
     Component* around = innermost(places, &component);
     if (around != nullptr && around->volume > 0.0 && !is_furnished(*around)) {
-      // A thing out of which a lamp reaches is furniture where a furnished shell holds the whole lamp.
+      // An object through which a lamp sticks out is furniture if a furnished shell contains the whole lamp.
       Component* const whole = innermost(corners, &component);
       if (whole != nullptr && is_furnished(*whole)) { around = whole; }
     }

@@ -208,7 +208,7 @@ HALFLIGHT_INLINE void Shells::part_groups() {
   for (Component& component : components_) {
     const bool any = std::any_of(component.cavities.begin(), component.cavities.end(), [&](auto c) { return components_[c].several; });
     if (component.role == Role::surface || component.role == Role::nothing || !(component.several || any)) { continue; }
-    if (component.role == Role::cavity) { continue; }  // with the solid around it
+    if (component.role == Role::cavity) { continue; }  // handled with the solid around it
     if (component.role == Role::solid && component.cavities.empty()) { continue; }
     part(component);
     for (const std::uint32_t cavity : component.cavities) { part(components_[cavity]); }
@@ -253,7 +253,7 @@ HALFLIGHT_INLINE void Shells::find_roles() {
   turn_shells();
   hollow_solids();
   part_groups();
-  for (Component& component : components_) {  // what is beyond the walls of a room would be buried
+  for (Component& component : components_) {  // everything beyond the walls of a room would count as buried
     if (component.role != Role::room) { continue; }
     const raycast::Box box = component.box.grown(mesh_.tolerance);
     const bool all = glm::min(box.lo, bounds_.lo) == box.lo && glm::max(box.hi, bounds_.hi) == box.hi;

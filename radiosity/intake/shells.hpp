@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// What the closed shells of a model are: solids, rooms, cavities of a solid around them, or one of two sides of the same walls. Orientation
-// alone does not tell, for half of the models in the world are inside out here or there; lamps, eyes, and what lies in what tell more.
+// Classifies the closed shells of a model: solids, rooms, cavities of a solid around them, or one of two sides of the same walls.
+// Orientation alone does not decide, because many models are partly inside out. Lamps, eyes, and which shell contains which tell more.
 
 #include <cstdint>
 #include <span>
@@ -19,36 +19,37 @@
 
 namespace radiosity::intake {
 
-// nothing: the other side of walls that are there already.
+// nothing: a shell that duplicates walls which are already there, and is left out.
 enum class Role : unsigned char { surface, solid, room, cavity, nothing };
 
-// Faces that hang together.
+// A set of connected faces.
 struct Component {
   std::vector<std::uint32_t> faces;
   raycast::Box box;
   bool closed = true;
-  double volume = 0.0;  // of a closed one; negative when it looks inwards
+  double volume = 0.0;  // of a closed one; negative if it looks inwards
   Role role = Role::surface;
-  bool several = false;                 // of several groups
-  bool one_sided = false;               // of a surface: its backs are not seen, for it encloses something, or lies on something
-  bool both_sides = false;              // of a surface: both are seen (open_surfaces.hpp)
+  bool several = false;                 // do its faces belong to several groups?
+  bool one_sided = false;               // of a surface: its back is not visible, because it encloses or lies on something
+  bool both_sides = false;              // of a surface: both sides are visible (open_surfaces.hpp)
   bool flush = false;                   // a lamp that lies on something (lamps.hpp)
-  std::vector<std::uint32_t> cavities;  // of a solid: the rooms in it, as components
+  std::vector<std::uint32_t> cavities;  // of a solid: the components that are its cavities
 };
 
 class Shells {
  public:
   Shells(Working& mesh, const Topology& topology, std::span<const Material> materials, const IntakeOptions& options);
 
-  // Tells what each component is, and turns shells that look the wrong way; what is turned or left out counts as a change.
+  // Finds the role of each component and turns shells with the wrong orientation. Counts what is turned or left out as changes.
   void find_roles();
 
   [[nodiscard]] std::span<const Component> components() const { return components_; }
   [[nodiscard]] bool shines(const Component& shell) const;
-  // The component is a lamp that lies on a surface. `turn`: away from that. `one_sided`: what looks into it is not seen.
+  // Marks the component as a lamp that lies on a surface. `turn`: turns it away from that surface. `one_sided`: its side
+  // towards that surface is not visible.
   void lay_lamp(std::uint32_t component, bool turn, bool one_sided);
   void turn(std::uint32_t component);
-  // Of a surface its front alone is seen, or its back alone, which then is its front.
+  // Makes only the front of a surface visible, or only its back, which then becomes its front.
   void show_one_side(std::uint32_t component, bool back);
   void show_both_sides(std::uint32_t component) { components_[component].both_sides = true; }
 
@@ -56,72 +57,73 @@ class Shells {
   [[nodiscard]] bool turned(std::uint32_t component) const { return !turned_.empty() && turned_[component]; }
 
  private:
-  // Shells of the same place, of which one looks outwards and one inwards: walls that were given twice, for both sides.
+  // Two shells at the same place, one looking outwards and one inwards: walls that were given twice, once for each side.
   struct Twins {
     Component *outer = nullptr, *inner = nullptr;
   };
-  // A point that must be seen, on either side of a lamp that may lie on a wall.
+  // A point that must be visible: its places in front of and behind the lamp, which may lie on a wall.
   struct Place {
     glm::dvec3 front{0.0}, behind{0.0};
   };
 
   [[nodiscard]] std::vector<Twins> find_twins();
-  // One side of the walls is seen; the other stays where it is neither clear that all lies within, nor that nothing does.
+  // Keeps one of the two sides. Keeps both if the model lies neither clearly all inside nor clearly all outside.
   void settle(const Twins& twins);
-  // The part of all directions from the point in which the shell is seen from behind: 1 inside, 0 outside (van Oosterom, Strackee 1983).
+  // Does the closed shell contain the point? Computed from the solid angle of its faces (van Oosterom, Strackee 1983): the fraction of
+  // all directions in which it is seen from behind is 1 inside and 0 outside.
   [[nodiscard]] bool holds(const Component& shell, const glm::dvec3& point) const;
-  // The innermost shell that holds all these points. What lies on a shell is in it when its front is; or, of a shell that looks inwards,
-  // when its back is.
-  // A closed lamp that lies on a shell is in it when one of the two is.
+  // The innermost shell, except `but`, that contains all these points. A point on a shell is inside if its front place is; for a shell
+  // that looks inwards, if its back place is. A closed lamp on a shell is inside if one of the two is.
   [[nodiscard]] Component* innermost(std::span<const Place> places, const Component* but);
-  // Do six planes hold two fifths of its area, as walls, floor and ceiling do?
+  // Do six planes hold two fifths of its area, like walls, floor and ceiling?
   [[nodiscard]] bool has_walls(const Component& shell) const;
-  // The shell that looks inwards at all the others, which do not look inwards themselves, as in a model that is inside out. Open surfaces
-  // alone, such as eyes and teeth in the head of a statue that is inside out, make no room of what has no walls. Null: none.
+  // The shell that looks inwards at all other shells, which themselves do not look inwards, as in a model that is inside out; null: none.
+  // Open surfaces alone, such as eyes and teeth in the head of a statue that is inside out, do not make a shell without walls a room.
   [[nodiscard]] Component* shell_around_others();
-  // The smallest shell that holds this one, or none.
+  // The smallest shell that contains this one, or none.
   [[nodiscard]] std::uint32_t around(const Component& shell) const;
-  // What lies in what, and how much of it that fills. Nothing where there are too many shells.
+  // The shells directly inside a shell, and how much of its volume they fill. Empty if there are too many shells.
   struct Nest {
-    std::vector<std::uint32_t> inner;  // the shells in it, but not those in these
+    std::vector<std::uint32_t> inner;  // the shells in it, without those nested in these
     double filled = 0.0;               // share of the volume
   };
   void find_nests();
-  // Rooms that no lamp and no eye tells of. What fills at least half of a shell is no furniture: that shell is walls, and what looks the
-  // other way in it, or has things in it, is a room. Where less is filled, a shell that looks outwards at things which all look inwards is
-  // a room of a model that is inside out; this only where no other room is known.
+  // Finds rooms in which there is no lamp and no eye. If a shell is filled by at least half, it is walls rather than furnished, and a
+  // shell in it that looks the other way, or contains something, is a room. If it is filled less, a shell that looks outwards and
+  // contains only shells that look inwards is a room of a model that is inside out; this is used only if no other room is known.
   void find_nested_rooms(bool room_known);
-  // Another shell as a whole; where no shell is around both, its middle is enough.
+  // As holds(), for another shell as a whole; if no shell contains both, its centre is enough.
   [[nodiscard]] bool holds_another(const Component& shell, const Component* around) const;
-  // Does the shell hold things that look the other way, as those of a room do, and that leave half of it free, so that it is not the outer
-  // side of walls?
+  // Does the shell contain shells that look the other way, as furniture does in a room, and that leave half of it free, so that it is not
+  // the outer side of walls?
   [[nodiscard]] bool is_furnished(const Component& shell) const;
-  // May the shell be a room in which nothing stands? It has walls, does not look outwards as far as the file tells, nothing but lamps
-  // reaches out of it, and no eye tells another thing.
+  // May the shell be an empty room? It has walls, does not look outwards according to the file, nothing but lamps sticks out of it, and
+  // no eye tells otherwise.
   [[nodiscard]] bool is_bare_room(const Component& shell) const;
-  // The innermost furnished or bare room through whose walls a lamp reaches, such as a bulb that is sunk into the ceiling. `lamp` is null
-  // where it is none of the shells.
+  // The innermost furnished or empty room through whose walls a lamp reaches, such as a bulb sunk into the ceiling. `lamp`: null if the
+  // lamp is not a shell.
   [[nodiscard]] Component* pierced_by(std::span<const Place> places, const Component* lamp);
-  // Is a shell that shines on the inside, at least in part, a room? One that looks outwards is when it shines in part and is furnished. One
-  // that looks inwards is when something is in it, when it is alone, or when the innermost shell around it looks outwards and is filled by
-  // half, as walls are by their rooms. Else it is a lamp, a bulb for instance, or a thing that shines, and is inside out; so it is when an
-  // eye in the shell around it tells that this is the room.
+  // Is a shell that emits inwards, at least in part, a room? One that looks outwards is a room if it emits only in part and is furnished.
+  // One that looks inwards is a room if something is in it, if it is the only shell, or if the innermost shell around it looks outwards
+  // and is half filled, as walls are by their rooms. Otherwise it is a lamp, such as a bulb, or another emitting object that is inside
+  // out; it is also one if an eye in the shell around it shows that the outer shell is the room.
   [[nodiscard]] bool shines_inwards(const Component& lamp, const Component* around, bool around_is_room) const;
-  // Shells around lamps and eyes. Some may be null.
+  // The shells around lamps and eyes. Some entries may be null.
   [[nodiscard]] std::vector<Component*> find_rooms();
   void turn_shells();
-  // Walls with a thickness: the room is a cavity of the solid around it.
+  // For walls with a thickness: makes the room a cavity of the solid around it.
   void hollow_solids();
-  // Walls, floor and ceiling of several groups stay objects of these groups: rooms become surfaces, and so do the shells whose walls or
-  // cavities they are. A thing of several groups, such as a cabinet in parts by material, is one solid: what it stands on is buried there.
+  // Walls, floor and ceiling that belong to several groups stay objects of these groups: such rooms become surfaces, and so do shells
+  // whose walls or cavities they are. An object of several groups, such as a cabinet divided by material, becomes one solid, so that
+  // surfaces between it and what it stands on are buried.
   void part_groups();
 
   Working& mesh_;
   std::span<const Material> materials_;
   const IntakeOptions& options_;
   std::vector<Component> components_;
-  std::vector<Nest> nests_;   // of a component
-  std::vector<bool> turned_;  // of a component
+  std::vector<Nest> nests_;   // by component
+  std::vector<bool> turned_;  // by component
   std::vector<Room> rooms_;
   raycast::Box bounds_;
 };

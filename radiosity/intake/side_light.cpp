@@ -97,7 +97,7 @@ HALFLIGHT_INLINE std::uint32_t SideLight::nearest_point(std::uint32_t side, cons
 }
 
 HALFLIGHT_INLINE bool SideLight::cut_off(const glm::dvec3& place, const Point& point, double way) const {
-  constexpr double near = 0.25;  // of the way of the ray
+  constexpr double near = 0.25;  // relative to the length of the ray
   const glm::dvec3 across = point.position - place;
   const double distance = glm::length(across);
   if (!(distance > near * way)) { return false; }
@@ -105,7 +105,7 @@ HALFLIGHT_INLINE bool SideLight::cut_off(const glm::dvec3& place, const Point& p
   return first_met(place + 4.0 * mesh_.tolerance * normal, across / distance, point.side / 2).way < distance;
 }
 
-// Half of the points are shared out by area, half evenly over the faces.
+// Distributes half of the points by area, and half equally among the faces.
 HALFLIGHT_INLINE void SideLight::place_points() {
   constexpr double all_points = 32'000.0, most = 128.0;
   double whole = 0.0;
@@ -127,7 +127,7 @@ HALFLIGHT_INLINE void SideLight::place_points() {
 }
 
 HALFLIGHT_INLINE void SideLight::shoot() {
-  std::vector<double> area(views_.size(), 0.0);  // of a piece
+  std::vector<double> area(views_.size(), 0.0);  // by piece
   for (std::uint32_t f = 0; f < area_.size(); ++f) { area[piece_[f]] += area_[f]; }
   met_.clear();
   for (std::size_t k = 0; k < points_.size(); ++k) {
@@ -154,7 +154,8 @@ HALFLIGHT_INLINE void SideLight::shoot() {
   }
 }
 
-// A lamp sends its light to the side from which the way is longer: a flat one close to a ceiling was not meant to light the ceiling.
+// A lamp emits to the side with the longer distance to the next surface, because a flat lamp close to a ceiling was not meant to light
+// the ceiling.
 HALFLIGHT_INLINE void SideLight::set_lamps(std::span<const Material> materials) {
   constexpr double much_longer = 2.0;
   for (std::uint32_t f = 0; f < mesh_.faces.size(); ++f) {
@@ -170,11 +171,11 @@ HALFLIGHT_INLINE void SideLight::set_lamps(std::span<const Material> materials) 
 HALFLIGHT_INLINE void SideLight::set_eyes(std::span<const glm::dvec3> eyes) {
   constexpr std::uint32_t directions = 512;
   constexpr std::size_t most = 16;
-  constexpr double as_lamps = 0.01;  // an eye sends as much as lamps of this share of all area
+  constexpr double as_lamps = 0.01;  // an eye emits as much as a lamp with this share of the total area
   double whole = 0.0;
   for (const double area : area_) { whole += area; }
   for (const glm::dvec3& eye : eyes.first(std::min(most, eyes.size()))) {
-    for (std::uint32_t i = 0; i < directions; ++i) {  // a spiral over the sphere
+    for (std::uint32_t i = 0; i < directions; ++i) {  // on a spiral over the sphere
       const double z = 1.0 - (2.0 * i + 1.0) / directions, r = std::sqrt(1.0 - z * z), turn = i * std::numbers::pi * (3.0 - std::sqrt(5.0));
       const Met met = first_met(eye, {r * std::cos(turn), r * std::sin(turn), z}, none);
       if (met.side != none) { sent_[met.side] += as_lamps * whole / directions / area_[met.side / 2]; }
@@ -182,8 +183,8 @@ HALFLIGHT_INLINE void SideLight::set_eyes(std::span<const glm::dvec3> eyes) {
   }
 }
 
-// Where surfaces coincide the darker one is met: in a box that stands against a larger one, its own wall and not that of the other, which
-// may be lit around it.
+// If two surfaces coincide, the darker one is used: from inside a box that stands against a larger one, the box's own wall, not that of
+// the larger one, which may be lit around the box.
 HALFLIGHT_INLINE double SideLight::light_along(const RayEnd& end) const {
   constexpr double reflectance = 0.7;
   if (end.point == none) { return outside_; }

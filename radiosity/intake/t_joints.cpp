@@ -21,13 +21,13 @@ namespace radiosity::intake {
 namespace detail {
 
 struct Side {
-  std::uint32_t shell, low, high;  // its vertices
-  std::uint32_t face, corner;      // it begins at this corner
+  std::uint32_t shell, low, high;  // low, high: its vertices
+  std::uint32_t face, corner;      // the side begins at this corner
 
   [[nodiscard]] auto key() const { return std::tie(shell, low, high); }
 };
 
-// The sides of all faces, those of an edge after each other.
+// The sides of all faces, sorted by edge.
 inline std::vector<Side> sides_of(const Working& mesh, std::uint32_t first_shell) {
   std::vector<Side> edges;
   for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) {
@@ -53,7 +53,7 @@ struct Joint {
 
 HALFLIGHT_INLINE void close_t_joints(Working& mesh, std::uint32_t first_shell) {
   const std::vector<detail::Side> edges = detail::sides_of(mesh, first_shell);
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> ends;  // shell, vertex: of edges with one face
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> ends;  // shell and vertex, for the ends of edges with one face
   for (std::size_t i = 0; i < edges.size(); ++i) {
     const detail::Side& e = edges[i];
     if ((i > 0 && edges[i - 1].key() == e.key()) || (i + 1 < edges.size() && edges[i + 1].key() == e.key())) { continue; }
@@ -87,13 +87,14 @@ HALFLIGHT_INLINE void close_t_joints(Working& mesh, std::uint32_t first_shell) {
       return false;
     }));
   }
-  // From the last corner of a face to its first, and from the end of an edge to its beginning, so that the places stay right.
+  // Sorted from the last corner of a face to the first, and from the end of an edge to its beginning, so that insertions do not shift the
+  // places of later ones.
   std::sort(joints.begin(), joints.end(), [](const detail::Joint& a, const detail::Joint& b) {
     return std::tie(a.face, b.corner, b.along, a.vertex) < std::tie(b.face, a.corner, a.along, b.vertex);
   });
   for (const detail::Joint& joint : joints) {
     std::vector<std::uint32_t>& corners = mesh.faces[joint.face].corners;
-    if (std::find(corners.begin(), corners.end(), joint.vertex) != corners.end()) { continue; }  // on two of its edges
+    if (std::find(corners.begin(), corners.end(), joint.vertex) != corners.end()) { continue; }  // it also lies on another edge of the face
     corners.insert(corners.begin() + joint.corner + 1, joint.vertex);
   }
 }

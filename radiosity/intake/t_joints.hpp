@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// T-joints: where a vertex lies on the edge of another face, that face gets it as a corner.
+// Closes T-joints: if a vertex lies on the edge of another face, it becomes a corner of that face.
 //
 //      *-------*             *-------*
 //      |       |\            |       |\         the face on the left has four corners before
@@ -9,7 +9,7 @@
 //      |       |/            |       |/
 //      *-------*             *-------*
 //
-// Only the vertices of edges with a face on one side are looked at, each shell by itself (working.hpp).
+// Only vertices of edges with a single face are examined, separately for each shell (working.hpp).
 
 #include <cstdint>
 
@@ -17,7 +17,7 @@
 
 namespace radiosity::intake {
 
-// Of the shells from this one on.
+// For shells with at least this number.
 void close_t_joints(Working& mesh, std::uint32_t first_shell = 0);
 
 }  // namespace radiosity::intake

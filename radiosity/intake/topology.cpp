@@ -27,12 +27,12 @@ namespace detail {
 struct Use {
   std::uint32_t shell, low, high;
   std::uint32_t side, face;
-  bool up;  // runs from low to high
+  bool up;  // does it run from low to high?
 
   [[nodiscard]] auto key() const { return std::tie(shell, low, high); }
 };
 
-// All uses, those of an edge after each other; and the first side of each face.
+// All uses sorted by edge; `first`: the first side of each face.
 inline std::vector<Use> uses_of(const Working& mesh, std::vector<std::uint32_t>& first) {
   std::vector<Use> uses;
   first.clear();
@@ -49,7 +49,7 @@ inline std::vector<Use> uses_of(const Working& mesh, std::vector<std::uint32_t>&
   return uses;
 }
 
-// visit(uses of one edge)
+// Calls visit with the uses of each edge.
 template <class Visit>
 void each_edge(std::span<const Use> uses, Visit&& visit) {
   for (std::size_t first = 0, end = 0; first < uses.size(); first = end) {
@@ -58,7 +58,7 @@ void each_edge(std::span<const Use> uses, Visit&& visit) {
   }
 }
 
-// Do the faces have the same corners, in opposite order: are they the two sides of one sheet?
+// Are the faces the two sides of one sheet: the same corners in opposite order?
 inline bool back_to_back(const Face& a, const Face& b) {
   const std::size_t n = a.corners.size();
   if (n != b.corners.size()) { return false; }
@@ -83,7 +83,7 @@ class Sets {
     a = find(a), b = find(b);
     parent_[std::max(a, b)] = std::min(a, b);
   }
-  // Numbers the sets from 0 in the order of their first members; how many there are.
+  // Numbers the sets from 0 in the order of their first members; returns how many there are.
   std::uint32_t number(std::vector<std::uint32_t>& out) {
     std::uint32_t count = 0;
     out.resize(parent_.size());
@@ -135,8 +135,8 @@ class Joiner {
     if (report) { mesh_.changed(ChangeKind::nonmanifold, mesh_.faces[edge[0].face].polygon); }
   }
 
-  // Where solids touch in an edge each of them is usually a piece of its own: two sides of one piece, and of no more, are neighbours,
-  // whichever way the other pieces look. What remains.
+  // Where solids touch in an edge, each is usually a separate piece. If a piece has exactly two sides at the edge, these become
+  // neighbours, whatever the orientation of the other pieces. Returns the remaining uses.
   std::vector<Use> mate_pieces(std::span<const Use> edge) {
     std::vector<Use> rest(edge.begin(), edge.end());
     const auto piece = [&](const Use& use) { return mesh_.faces[use.face].piece; };
@@ -160,14 +160,15 @@ class Joiner {
     topology_.mate[b.side] = a.side;
   }
 
-  // Several solids that touch in an edge: from each face around the edge, through the solid behind it, to the next face.
+  // For several solids that touch in an edge: connects each face around the edge with the next one on the other side of the
+  // solid behind it.
   bool join_around(std::span<const Use> edge) {
     const glm::dvec3 axis = glm::normalize(mesh_.positions[edge[0].high] - mesh_.positions[edge[0].low]);
     std::vector<double> angle;
     glm::dvec3 zero{0.0};
     for (const Use& use : edge) {
       const glm::dvec3 normal = brep::normal(mesh_.outline(mesh_.faces[use.face]));
-      const glm::dvec3 into = use.up ? glm::cross(normal, axis) : glm::cross(axis, normal);  // the face, from the edge
+      const glm::dvec3 into = use.up ? glm::cross(normal, axis) : glm::cross(axis, normal);  // direction from the edge into the face
       if (angle.empty()) { zero = into; }
       const double a = std::atan2(glm::dot(glm::cross(zero, into), axis), glm::dot(zero, into));
       angle.push_back(a < -1e-9 ? a + 2.0 * std::numbers::pi : std::max(a, 0.0));
@@ -180,7 +181,7 @@ class Joiner {
       double least = HUGE_VAL;
       for (std::size_t j = 0; j < edge.size(); ++j) {
         if (edge[j].up || taken[j] || back_to_back(mesh_.faces[edge[i].face], mesh_.faces[edge[j].face])) { continue; }
-        double turn = angle[i] - angle[j];  // the solid is behind the face: the way round is against the axis
+        double turn = angle[i] - angle[j];  // the solid lies behind the face, so the angle is measured against the axis
         if (turn < 1e-9) { turn += 2.0 * std::numbers::pi; }
         if (turn < least) {
           least = turn;
@@ -204,8 +205,8 @@ class Joiner {
     topology_.vertices = fans.number(topology_.vertex);
   }
 
-  // Faces that are not the only ones to run along an edge in their direction, or that meet in an edge without being neighbours, become
-  // loose: of each such edge the later face.
+  // Makes faces loose that share an edge and direction with another one, or meet another one in an edge without being its neighbour: at
+  // each such edge, the later face.
   void loosen(bool report) {
     struct Run {
       std::uint32_t from, to, side;
@@ -226,7 +227,7 @@ class Joiner {
       }
       if (strange) { set_loose(face_of_[run.side], report); }
     }
-    std::vector<std::uint32_t> corners;  // a face that comes to a vertex twice
+    std::vector<std::uint32_t> corners;  // a face with a repeated vertex
     for (std::uint32_t f = 0; f < mesh_.faces.size(); ++f) {
       corners.assign(topology_.vertex.begin() + topology_.first[f], topology_.vertex.begin() + topology_.first[f + 1]);
       std::sort(corners.begin(), corners.end());
@@ -271,7 +272,7 @@ HALFLIGHT_INLINE void orient(Working& mesh) {
     neighbours[edge[0].face].push_back({edge[1].face, alike});
     neighbours[edge[1].face].push_back({edge[0].face, alike});
   });
-  std::vector<signed char> side(mesh.faces.size(), 0);  // 1: as the first face of its component, -1: against it
+  std::vector<signed char> side(mesh.faces.size(), 0);  // 1: orientation of the first face of the component, -1: opposite
   std::vector<std::uint32_t> component;
   for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) {
     if (side[f] != 0) { continue; }

@@ -22,14 +22,14 @@
 namespace radiosity::intake {
 namespace detail {
 
-// Points in cells of a grid. A cell is much wider than the tolerance, so a point looks into its own cell, and into a neighbour only where
-// it lies near the border. Points far outside of the bounds share the outermost cells.
+// Points in a grid of cells. A cell is much wider than the tolerance, so a query searches its own cell, and a neighbour only near the
+// border. Points far outside the bounds share the outermost cells.
 class PointGrid {
  public:
   PointGrid(const raycast::Box& bounds, double tolerance, std::vector<glm::dvec3>& points)
       : points_(points), origin_(bounds.lo), tolerance_(tolerance), cell_(std::max(64.0 * tolerance, bounds.diameter() * 0x1p-20)) {}
 
-  // The first point within the tolerance; `none` when there is none.
+  // The first kept point within the tolerance, or `none`.
   [[nodiscard]] std::uint32_t find(const glm::dvec3& p) const {
     const glm::dvec3 lo = cell_of(p - tolerance_), hi = cell_of(p + tolerance_);
     std::uint32_t found = none;
@@ -61,7 +61,7 @@ class PointGrid {
   }
 
  private:
-  // Cells are numbered from -1 to 2^20 each way.
+  // Cells are numbered from -1 to 2^20 in each direction.
   [[nodiscard]] glm::dvec3 cell_of(const glm::dvec3& p) const { return glm::clamp(glm::floor((p - origin_) / cell_), -1.0, 0x1p20); }
   static std::uint64_t key(const glm::dvec3& cell) {
     const auto number = [](double x) { return static_cast<std::uint64_t>(x + 1.0); };
@@ -75,7 +75,7 @@ class PointGrid {
   double tolerance_, cell_;
 };
 
-// Every index exists, every coordinate is finite.
+// Do all indices exist, and are all coordinates finite?
 inline bool usable_polygon(const PolygonView& input, std::size_t p, std::size_t materials) {
   if (input.first_corner[p] > input.first_corner[p + 1] || input.first_corner[p + 1] > input.corners.size()) { return false; }
   if (p >= input.material.size() || input.material[p] >= materials) { return false; }
@@ -105,7 +105,7 @@ HALFLIGHT_INLINE void weld(const PolygonView& input, std::span<const Material> m
   }
   const raycast::Box& bounds = without_lamps.diameter() > 0.0 ? without_lamps : all;
   if (!(bounds.diameter() > 0.0)) { return; }
-  out.tolerance = relative_tolerance * bounds.diameter() + 0x1p-50 * bounds.magnitude();  // coordinates are known no better
+  out.tolerance = relative_tolerance * bounds.diameter() + 0x1p-50 * bounds.magnitude();  // rounding error of the coordinates
   detail::PointGrid grid(bounds, out.tolerance, out.positions);
   grid.reserve(input.positions.size());
   std::vector<std::uint32_t> kept(input.positions.size(), none);

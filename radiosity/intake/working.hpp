@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// What the steps of the intake hand on to each other: positions, faces that know from which polygon of the input they come, and the
-// changes.
+// Data passed from one step of the intake to the next: positions, faces with the input polygons they come from, and the changes.
 
 #include <algorithm>
 #include <array>
@@ -22,29 +21,29 @@ namespace radiosity::intake {
 
 inline constexpr std::uint32_t none = 0xffffffff;
 
-// A polygon of the input that a face stands for.
+// An input polygon that a face represents.
 struct Source {
   std::uint32_t polygon = 0;
-  bool turned = false;  // against the input
-  bool back = false;    // it was given for the other side of the face
+  bool turned = false;  // opposite orientation to the input
+  bool back = false;    // given for the other side of the face
 };
 
 struct Face {
   std::vector<std::uint32_t> corners;  // indices into Working::positions
   std::uint32_t material = 0, group = 0;
   std::uint32_t polygon = 0;      // of the input
-  bool turned = false;            // against the input
-  bool mixed = false;             // belongs to a surface of which it is not known which side was meant to be seen
-  std::vector<Source> more = {};  // besides `polygon`: its duplicates, and those that were merged
-  std::uint32_t shell = group;    // faces of one shell may be neighbours: a group, or groups that close a shell together (join.hpp)
-  std::uint32_t back = none;      // the material of the polygons for its other side (backs.hpp)
-  std::uint32_t piece = none;     // faces of one piece hang together across edges that no other face has (orient)
+  bool turned = false;            // opposite orientation to the input
+  bool mixed = false;             // part of a surface for which it is unknown which side was meant to be seen
+  std::vector<Source> more = {};  // further polygons besides `polygon`: duplicates and merged ones
+  std::uint32_t shell = group;    // faces of one shell may be neighbours: a group, or groups that together close a shell (join.hpp)
+  std::uint32_t back = none;      // material of its other side, from polygons given for that (backs.hpp)
+  std::uint32_t piece = none;     // faces of one piece are connected across edges with no other face (orient)
 
   void stand_for(const Face& other) {
     more.push_back({other.polygon, other.turned});
     more.insert(more.end(), other.more.begin(), other.more.end());
   }
-  // Makes it look the other way.
+  // Reverses the orientation.
   void turn() {
     std::reverse(corners.begin(), corners.end());
     turned = !turned;
@@ -53,7 +52,7 @@ struct Face {
   }
 };
 
-// The corners from the least on, in their order.
+// The corners rotated so that the least comes first, in unchanged order.
 inline std::vector<std::uint32_t> canonical(std::vector<std::uint32_t> corners) {
   std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
   return corners;
@@ -62,7 +61,7 @@ inline std::vector<std::uint32_t> canonical(std::vector<std::uint32_t> corners) 
 struct Working {
   std::vector<glm::dvec3> positions;
   std::vector<Face> faces;
-  double tolerance = 0.0;  // a length: closer than this is the same place
+  double tolerance = 0.0;  // a length; points closer than this are the same place
   std::array<Change, static_cast<std::size_t>(ChangeKind::merged) + 1> changes{};
 
   void changed(ChangeKind kind, std::uint32_t polygon, double size = 0.0, std::size_t count = 1) {
@@ -74,7 +73,7 @@ struct Working {
     change.count += count;
     change.size = std::max(change.size, size);
   }
-  // The corners of a face in space. Valid until the next call.
+  // The positions of a face's corners. Valid until the next call.
   [[nodiscard]] std::span<const glm::dvec3> outline(const std::vector<std::uint32_t>& corners) {
     outline_.clear();
     for (const std::uint32_t v : corners) { outline_.push_back(positions[v]); }

@@ -34,19 +34,19 @@
 
 namespace radiosity {
 
-// What the exposed part of a patch exchanges with `other`, over what the whole patch would: its share of the area, unless the
-// other's horizon cuts the patch. Then the object that buries the rest is often the one that draws the horizon (the wall of a
-// post and the floor around it), and the share is that of the part above the horizon.
+// The share of the patch's exchange with `other` that its exposed part has: its share of the area, unless the other's horizon cuts the
+// patch. In that case the object that buries the rest often also defines the horizon (the wall of a post and the floor around it), and
+// the share is that of the part above the horizon.
 [[nodiscard]] HALFLIGHT_INLINE double exposed_share(const PatchEnd& end, double exposed_area, const Patch& other) {
   const Patch& patch = *end.patch;
   if (end.exposed == nullptr || above_horizon(other, patch) != 0) { return exposed_area / patch.area; }
   return end.exposed->share_above(patch, other.centre, other.normal);
 }
 
-// Pairs of points, in rounds of 16, for each link of a cluster: a mean over many faces that hide each other, so never few.
+// Rounds of 16 pairs of points for each cluster link. Never fewer, because it is a mean over many faces that hide each other.
 inline constexpr std::uint32_t cluster_rounds = 4;
 
-// By how much chords in place of curves may change the light between two patches, relative to it.
+// Relative change of the light between two patches by replacing curves by chords.
 [[nodiscard]] HALFLIGHT_INLINE double chord_depth(const Node& p, const Node& q) {
   return 0.5 * (p.deviation * p.deviation + q.deviation * q.deviation);
 }
@@ -97,7 +97,7 @@ HALFLIGHT_INLINE RayCount LinkEvaluator::operator()(Link& link, const raycast::O
   const Variations light_varies = varying ? variations(p, q) : Variations{};
   const double unoccluded = exchange(p, q, varying ? &light_varies : nullptr);
   if (!(unoccluded > 0.0)) {
-    // The patches face away from each other; where they are curved, parts of their surfaces may not.
+    // The patches face away from each other, but if they are curved, parts of their surfaces may face each other.
     const double light = variation != nullptr && (p.bent || q.bent) ? light_varies.light : 0.0;
     if (!(light > 0.0)) { return {}; }
     const VisibilityEstimate seen = visibility(scene_, list, end(link.p), end(link.q), 1, Random{seed_, key_of(link)});
@@ -109,7 +109,7 @@ HALFLIGHT_INLINE RayCount LinkEvaluator::operator()(Link& link, const raycast::O
   const PatchEnd end_q = end(link.q);
   const std::optional<VisibilityEstimate> measured = measured_visibility(link);
   const VisibilityEstimate seen = measured ? *measured : visibility(scene_, list, end_p, end_q, patch_rounds, Random{seed_, key});
-  // On curved objects the area of the finer leaves counts too: the patch passes it on with its own kernel.
+  // On curved objects the area of the finer leaves counts, too, because the patch passes light on to them with its own kernel.
   const double share = exposed_share(end_p, area_p, q) * exposed_share(end_q, area_q, p);
   link.exchange = static_cast<float>(unoccluded * seen.fraction * share);
   if (varying) {
@@ -130,8 +130,8 @@ HALFLIGHT_INLINE RayCount LinkEvaluator::operator()(Link& link, const raycast::O
   return seen.rays;
 }
 
-// What the lamp shows as a whole is known well, and so are the gradients over the patch. Which of its faces receive what comes back the
-// lattice of directions tells; as that errs alike for all that comes from near one direction, its errors add up.
+// The total projected area of the lamp and the gradients over the patch are accurate. The distribution of the returning light over the
+// lamp's faces comes from the lattice of directions, whose errors are equal for all light from about one direction, so they add up.
 HALFLIGHT_INLINE RayCount LinkEvaluator::evaluate_lamp_link(Link& link, LinkVariation* variation, Doubt* doubt) const {
   const LampExchange::Result seen = lamps_->evaluate(link, patch_rounds, Random{seed_, key_of(link)});
   const bool p_shines = scene_.hierarchy[link.p].is_cluster();
@@ -190,7 +190,7 @@ HALFLIGHT_INLINE Doubt LinkEvaluator::doubt_of(const Link& link, double sent, co
     return static_cast<float>(std::sqrt(square(arrives * v.rest) + square(sent * spread)) / area);
   };
   const double unseen = seen.proven ? 0.0 : square(sent) * visibility_variance(seen.fraction, static_cast<double>(seen.rays.cast));
-  const auto buried = [&](std::uint32_t i, double area) {  // variance of the exposed area, relative
+  const auto buried = [&](std::uint32_t i, double area) {  // relative variance of the exposed area
     return exposure_->partly_buried[i] ? std::max(0.0, (exposure_->whole[i] - area) / (256.0 * area)) : 0.0;
   };
   const double depth = chord_depth(p, q);
@@ -249,12 +249,12 @@ HALFLIGHT_INLINE void refit_cluster_link(const Hierarchy& hierarchy, Link& link,
   end(link.q, -d, link.shape_q);
 }
 
-// Evaluates `count` links, batch by batch: evaluate(i, doubt) in parallel, then keep(i, doubt) in their order, which says whether a link
-// stays. After each batch, done(how many) is called.
+// Evaluates `count` links in batches: evaluate(i, doubt) in parallel, then keep(i, doubt) in order, which returns whether the link is
+// kept. Calls done(number kept so far) after each batch.
 template <class Evaluate, class Keep, class Done>
 void evaluate_in_order(const Evaluation& by, std::size_t count, EvaluateResult& result, const Evaluate& evaluate, const Keep& keep,
                        const Done& done) {
-  constexpr std::size_t batch = 1 << 16;  // between two looks at the cancel flag
+  constexpr std::size_t batch = 1 << 16;  // links between two checks of the cancel flag
   std::vector<RayCount> rays;
   std::vector<Doubt> doubts;
   for (std::size_t first = 0; first < count; first += batch) {
@@ -283,7 +283,7 @@ void evaluate_in_order(const Evaluation& by, std::size_t count, EvaluateResult& 
 HALFLIGHT_INLINE EvaluateResult make_links(const Evaluation& by, const NodePairs& pairs, Links& links, LinkDoubts* doubts) {
   EvaluateResult result;
   links.clear();
-  links.resize(pairs.size());  // each at its place until all of a batch are known
+  links.resize(pairs.size());  // each link at its index until its batch is complete
   if (doubts != nullptr) {
     doubts->clear();
     doubts->reserve(pairs.size());
@@ -297,7 +297,7 @@ HALFLIGHT_INLINE EvaluateResult make_links(const Evaluation& by, const NodePairs
         return by.evaluator(links[i], by.occluders[pairs[i].list], nullptr, &doubt);
       },
       [&](std::size_t i, const Doubt& doubt) {
-        // Of a pair that was proven to exchange nothing there is no doubt.
+        // A pair that is proven to exchange nothing has no error.
         const bool hidden = pairs[i].list == OccluderLists::hidden;
         if (!hidden) { result.doubt.add(pairs[i].p, pairs[i].q, doubt); }
         if (!(links[i].exchange > 0.0f)) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Evaluates links: the form factor by contour, times the fraction of the light that arrives (paper 4.3: done once the oracle has agreed,
-// because it is the expensive part).
+// Evaluates links: the form factor by contour integral, times the fraction of the light that arrives. This is expensive, so it is done
+// only once the oracle has agreed to a link (paper 4.3).
 
 #include <cmath>
 #include <cstddef>
@@ -33,7 +33,7 @@ namespace radiosity {
 
 class LightMeshing;  // discontinuity/light_meshing.hpp
 
-// Some of many pairs, spread evenly over them in their order.
+// A sample of many pairs, evenly spaced in their order.
 class PairSample {
  public:
   void add(std::uint32_t p, std::uint32_t q) {
@@ -49,7 +49,7 @@ class PairSample {
     }
   }
   [[nodiscard]] const std::vector<glm::uvec2>& pairs() const { return pairs_; }
-  [[nodiscard]] std::uint64_t each() const { return each_; }  // pairs that one stands for
+  [[nodiscard]] std::uint64_t each() const { return each_; }  // number of pairs that each sampled one represents
 
  private:
   static constexpr std::size_t least = 1 << 14;
@@ -60,19 +60,19 @@ class PairSample {
 struct EvaluateResult {
   RayCount rays;
   std::uint64_t proven_clear = 0;  // links for which no segment was cast
-  std::uint64_t blocked = 0;       // links left out because nothing arrives
-  PairSample unseen;               // of those that are not proven to be blocked; not of measured links
-  DoubtSum doubt;                  // of the links left out, and, unless measured links hold theirs, of all
+  std::uint64_t blocked = 0;       // links left out because no light arrives
+  PairSample unseen;               // sample of the blocked links without proof; not of measured links
+  DoubtSum doubt;                  // of the links left out, and of all links unless measured links store theirs
   bool cancelled = false;
 
   // Adds what was found for further links.
   void add(const EvaluateResult& other);
 };
 
-// What is kept of a link that may be split once its light is known: what can stand between its ends, and its share of the doubt
-// (doubt.hpp), but for its chord, which follows from the link.
+// What is stored for a link that may be split once its light is known: the list of possible blockers, and the link's errors (doubt.hpp)
+// except the one by chords, which can be computed from the link.
 struct LinkDoubt {
-  std::uint32_t list = OccluderLists::none;  // of its ends
+  std::uint32_t list = OccluderLists::none;  // of the link's ends
   float p = 0.0f, q = 0.0f, square = 0.0f;
 
   [[nodiscard]] Doubt of(const Link& link, const Hierarchy& hierarchy) const;
@@ -80,20 +80,20 @@ struct LinkDoubt {
 
 using LinkDoubts = BigArray<LinkDoubt>;
 
-// How far the light of a link is from what the link can express, at each end: RMS values relative to the mean.
+// The variation that a link cannot express, at each end: RMS values relative to the mean.
 struct LinkVariation {
   struct End {
     float linear = 0.0f, rest = 0.0f;  // of the unoccluded light (exchange.hpp)
-    float shadow = 0.0f;               // of the visible fraction
+    float shadow = 0.0f;               // variation of the visible fraction
   };
   End p, q;
-  float cross = 0.0f;     // of the kernel, beyond what varies at each end: which part of one end is lit by which of the other
-  float sampling = 0.0f;  // standard error of the exchange of a link of a cluster, and of any of which not all segments arrived
-  float blocked = 0.0f;   // segments of the links that it was split from, where none of them arrived
+  float cross = 0.0f;     // variation of the kernel beyond that at each end: which part of one end lights which part of the other
+  float sampling = 0.0f;  // standard error of the exchange, of cluster links and of partly blocked links
+  float blocked = 0.0f;   // number of segments cast for its ancestor links, if all of them were blocked
   Doubt doubt;
 };
 
-// A link with all that is known of its error.
+// A link with all that is known about its error.
 struct MeasuredLink {
   Link link;
   std::uint32_t list = OccluderLists::none;  // of its ends or of their ancestors
@@ -104,41 +104,41 @@ using MeasuredLinks = BigArray<MeasuredLink>;
 
 [[nodiscard]] inline const Link& link_of(const MeasuredLink& measured) { return measured.link; }
 
-// The shapes of a link between patches, from how the light varies over them.
+// Sets the gradients of a link between patches from the variation of the light over them.
 void set_gradients(Link& link, const Variations& light);
 
-// Segments, in rounds of 16, for each link between patches that is partly blocked. Where a light shines, the light oracle has split until
-// the shadow within a patch matters little; what 64 segments add to that is an eighth of it.
+// Rounds of 16 segments for each partly blocked link between patches. Where a lamp shines, the light oracle has split patches until the
+// shadow within one matters little; the noise of 64 segments adds an eighth of that.
 inline constexpr std::uint32_t patch_rounds = 4;
 
-// Evaluates links one by one.
+// Evaluates single links.
 class LinkEvaluator {
  public:
-  // The references must outlive the evaluator. `shown`: by exposed areas.
+  // The references must outlive the evaluator. `shown`: computed from exposed areas.
   LinkEvaluator(const SceneView& scene, const Exposure& exposure, const ShownAreas& shown, std::uint64_t seed);
 
-  // The same with other random numbers, to measure links once more.
+  // A copy with other random numbers, for measuring links a second time.
   [[nodiscard]] LinkEvaluator reseeded(std::uint64_t seed) const {
     LinkEvaluator other{*this};
     other.seed_ = seed;
     return other;
   }
 
-  // Where that has measured the share of a lamp's light that arrives, no segment is cast. It must outlive the evaluator.
+  // Casts no segments where `light` has measured which share of a lamp's light arrives. `light` must outlive the evaluator.
   void use(const LightMeshing& light) { light_ = &light; }
 
-  // Sets the exchange, 0 when nothing arrives, and the shapes where they have an effect, or in any case when the variation is asked for.
-  // Returns its segments. Depends on the ends of the link and the seed alone; `list` saves time.
+  // Sets the exchange (0 if nothing arrives), and the shapes if they have an effect or `variation` is given. Returns the number of
+  // segments cast. The result depends only on the ends of the link and the seed; `list` only saves time.
   RayCount operator()(Link& link, const raycast::OccluderList& list, LinkVariation* variation = nullptr, Doubt* doubt = nullptr) const;
 
-  // Links of its clusters with patches are evaluated by it. It must outlive the evaluator.
+  // Uses `lamps` for links between its clusters and patches. `lamps` must outlive the evaluator.
   void use(const LampExchange& lamps) { lamps_ = &lamps; }
 
   [[nodiscard]] bool between_patches(const Link& link) const {
     return !scene_.hierarchy[link.p].is_cluster() && !scene_.hierarchy[link.q].is_cluster();
   }
-  // Casts the segments of a link between patches with exposed ends as if nothing were known of what can block them, and adds them to `seen`
-  // when that is given.
+  // Casts the segments of a link between patches with exposed ends as if nothing were known about blockers; appends them to `seen` if
+  // given.
   [[nodiscard]] VisibilityEstimate segments(const Link& link, std::vector<CastSegment>* seen = nullptr) const {
     return visibility(scene_, {}, end(link.p), end(link.q), patch_rounds, Random{seed_, key_of(link)}, seen);
   }
@@ -146,15 +146,14 @@ class LinkEvaluator {
  private:
   [[nodiscard]] std::optional<VisibilityEstimate> measured_visibility(const Link& link) const;
   RayCount evaluate_lamp_link(Link& link, LinkVariation* variation, Doubt* doubt) const;
-  // doubt.hpp. `sent`: what would arrive if nothing stood between. `at_leaves`: leaves may be split while the link stays as it is.
+  // The link's errors (doubt.hpp). `sent`: unoccluded exchange. `at_leaves`: leaves may still be split while the link stays.
   [[nodiscard]] Doubt doubt_of(const Link& link, double sent, const VisibilityEstimate& seen, const Variations& varies,
                                bool at_leaves) const;
-  // The exchange that a link may have although none of these segments arrived, and none of those before (Laplace's mean). `sent`: the
-  // exchange if nothing stood between.
+  // Expected exchange (Laplace's mean) although all segments, these and those of the ancestors, were blocked. `sent`: unoccluded exchange.
   [[nodiscard]] static double missed(double sent, const LinkVariation& before, std::uint64_t segments) {
     return sent / (static_cast<double>(before.blocked) + static_cast<double>(segments) + 2.0);
   }
-  // Standard error of the exchange where some segments arrived and some did not.
+  // Standard error of the exchange if only some of the segments arrived.
   [[nodiscard]] static double partly_seen(double sent, const VisibilityEstimate& seen) {
     return seen.fraction < 1.0 ? sent * std::sqrt(visibility_variance(seen.fraction, static_cast<double>(seen.rays.cast))) : 0.0;
   }
@@ -162,12 +161,12 @@ class LinkEvaluator {
   [[nodiscard]] static LinkVariation::End variation_at(const Variation& v, double shadow) {
     return {static_cast<float>(v.linear), static_cast<float>(std::hypot(v.rest, v.limited)), static_cast<float>(shadow)};
   }
-  // Everything at an end is lit as if it stood at the centre, and what is seen of the other end varies: most of all where the end is large
-  // from there, for the things in between then hide it from some and not from others. Light that reaches a cluster at all reaches few of
-  // its faces: over random normals the mean of the squares of cosines above 0 is 8 / 3 of the square of their mean. The lattice of
-  // directions adds a seventh. Measured on links of random boxes, polygons and a mesh, errors are .5 to 1.3 times these.
+  // A cluster link treats all faces at an end as if they were at its centre, but their view of the other end varies, most of all if the
+  // end is large, because blockers then hide the other end from some faces only. In addition, light that reaches a cluster falls on few
+  // of its faces: over random normals the mean square of the positive cosines is 8/3 of their squared mean. The lattice of directions
+  // adds a seventh. Measured on links of random boxes, polygons and a mesh, the true errors are 0.5 to 1.3 times this estimate.
   [[nodiscard]] LinkVariation variation_of_cluster_link(const Link& link, const ClusterExchange& seen, const LinkVariation& before) const;
-  // Every face and every link errs for itself: by its place, by what it sees, by the lattice of directions and by sampling.
+  // The errors of faces and links are independent: by position, view, the lattice of directions, and sampling.
   [[nodiscard]] double doubt_of_cluster_link(const Link& link, const LinkVariation& variation) const;
   [[nodiscard]] PatchEnd end(std::uint32_t i) const {
     return {&scene_.patches[i], scene_.hierarchy[i].object, exposure_->points(i), scene_.sheet(i)};
@@ -181,10 +180,10 @@ class LinkEvaluator {
   const LampExchange* lamps_ = nullptr;
 };
 
-// Fits a cluster link to what its ends show now instead of `before`: exposed areas are known better where faces were split.
+// Adapts a cluster link to the areas that its ends show `now` instead of `before`; exposed areas are known better after faces were split.
 void refit_cluster_link(const Hierarchy& hierarchy, Link& link, const ShownAreas& before, const ShownAreas& now);
 
-// What the evaluation of many links needs. The references must outlive it.
+// Parameters for evaluating many links. The references must outlive it.
 struct Evaluation {
   const LinkEvaluator& evaluator;
   const OccluderLists& occluders;  // of the pairs or links
@@ -192,11 +191,11 @@ struct Evaluation {
   const Control& control;
 };
 
-// Makes the links of these pairs, in their order, except for those that carry nothing. With `doubts`, what is kept of each link.
+// Makes the links of these pairs, in order, except those without light. `doubts`, if given, receives an entry for each link.
 [[nodiscard]] EvaluateResult make_links(const Evaluation& by, const NodePairs& pairs, Links& links, LinkDoubts* doubts = nullptr);
 
-// Measures the links from `first` on and removes those that carry no light. A link whose samples are all blocked stays if it may still
-// carry some (LinkVariation::sampling).
+// Measures the links from index `first` on and removes those without light. A link whose samples are all blocked stays if it may carry
+// light all the same (LinkVariation::sampling).
 [[nodiscard]] EvaluateResult measure_links(const Evaluation& by, MeasuredLinks& links, std::size_t first);
 
 }  // namespace radiosity

@@ -26,7 +26,7 @@ HALFLIGHT_INLINE LinkSchedule::LinkSchedule(std::size_t nodes, std::span<Link> l
   }
   const auto size = [&](std::size_t b) { return first[b + 1] - first[b]; };
   std::stable_sort(blocks.begin(), blocks.end(), [&](std::size_t a, std::size_t b) { return size(a) > size(b); });
-  std::vector<std::uint64_t> busy;  // the tiles of each round, one bit each
+  std::vector<std::uint64_t> busy;  // tiles used by each round, as bits
   for (const std::size_t b : blocks) {
     const std::uint64_t both = std::uint64_t{1} << b / tiles | std::uint64_t{1} << b % tiles;
     std::size_t round = 0;

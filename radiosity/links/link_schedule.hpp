@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// In which order the links carry light, so that several threads can work and the bits of the result do not depend on how many.
+// The order in which links carry light, so that several threads can work and the bits of the result do not depend on their number.
 //
-// The nodes are cut into tiles with about equally many ends of links. The links between two tiles are a block. Blocks go in rounds, as in a
-// tournament: in one round no tile is in two blocks, so nobody writes where another does, and what arrives at a node is summed in
-// the order of the rounds and, within a block, of the links. Blocks are given to rounds largest first, so that those
-// of one round are about equally large. Few links are one block.
+// The nodes are divided into tiles with about equally many link ends. The links between two tiles form a block. Blocks are assigned to
+// rounds, as in a tournament: within a round no tile occurs in two blocks, so no two threads write to the same node, and the
+// contributions to a node are summed in the order of the rounds and, within a block, of the links. Blocks are assigned largest first, so
+// that those of one round have about the same size. Few links form a single block.
 
 #include <algorithm>
 #include <cstddef>
@@ -23,13 +23,14 @@ namespace radiosity {
 class LinkSchedule {
  public:
   struct Block {
-    std::size_t begin = 0, end = 0;  // of the links
+    std::size_t begin = 0, end = 0;  // range of its links
   };
 
-  // Arranges the links, unless they are arranged.
+  // Arranges the links by block, unless they are already arranged.
   LinkSchedule(std::size_t nodes, std::span<Link> links);
 
-  // Moves the links of a block together, in their order, in an array or span of records: Link, or what link_of(record) tells one of.
+  // Sorts an array or span of records by block, keeping the order within a block. Records are Links, or types for which link_of(record)
+  // returns one.
   template <class Array>
   static void arrange(std::size_t nodes, Array& links) {
     using Record = typename Array::value_type;
@@ -38,9 +39,9 @@ class LinkSchedule {
     const auto block = [&](const Record& record) { return block_of(tile, link_of(record)); };
     if (std::is_sorted(links.begin(), links.end(), [&](const Record& a, const Record& b) { return block(a) < block(b); })) { return; }
     std::vector<std::size_t> next = first_of_blocks(tile, links);
-    std::vector<std::uint32_t> from(links.size());  // of each place: which of the links comes there
+    std::vector<std::uint32_t> from(links.size());  // by place: index of the link that moves there
     for (std::uint32_t i = 0; i < links.size(); ++i) { from[next[block(links[i])]++] = i; }
-    for (std::uint32_t start = 0; start < links.size(); ++start) {  // in place, cycle by cycle
+    for (std::uint32_t start = 0; start < links.size(); ++start) {  // permute in place, cycle by cycle
       if (from[start] == start) { continue; }
       const Record first = links[start];
       std::uint32_t k = start;
@@ -58,7 +59,7 @@ class LinkSchedule {
  private:
   static constexpr std::size_t tiles = 16, few = 1 << 14;
 
-  // Bounds between tiles lie where the running count of link ends passes a multiple of the mean.
+  // A new tile begins where the running count of link ends passes a multiple of the mean.
   template <class Array>
   static std::vector<std::uint8_t> tiles_of(std::size_t nodes, const Array& links) {
     std::vector<std::uint32_t> ends(nodes, 0);
@@ -78,7 +79,7 @@ class LinkSchedule {
     const std::size_t a = tile[link.p], b = tile[link.q];
     return std::max(a, b) * tiles + std::min(a, b);
   }
-  // Where the links of each block begin, once they are arranged.
+  // The index of the first link of each block, once the links are arranged.
   template <class Array>
   static std::vector<std::size_t> first_of_blocks(const std::vector<std::uint8_t>& tile, const Array& links) {
     std::vector<std::size_t> first(tiles * tiles + 1, 0);

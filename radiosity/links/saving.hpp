@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Estimates the time that a run saved by leaving links out: a sample of the links that it made is evaluated once more, as if nothing were
-// known of them, and timed. Results never depend on it.
+// Estimates the time saved by links that were left out: a sample of the links that were made is evaluated again, without any shortcut,
+// and timed. Results never depend on it.
 
 #include <algorithm>
 #include <cstddef>
@@ -16,14 +16,14 @@
 
 namespace radiosity {
 
-// Seconds of CPU time, averages over links between patches; 0 when there is none.
+// Seconds of CPU time, means over links between patches; 0 if there are none.
 struct LinkCost {
   double form_factor = 0.0;
   double ray = 0.0;   // one segment
-  double link = 0.0;  // all of it
+  double link = 0.0;  // the whole link
 };
 
-// Times at most 256 links, spread evenly; a millisecond or two. To be called when no other thread works.
+// Times at most 256 evenly spaced links; takes a millisecond or two. To be called while no other thread works.
 [[nodiscard]] inline LinkCost link_cost(const LinkEvaluator& evaluator, const Links& links) {
   constexpr std::size_t most = 256;
   Links chosen;

@@ -55,7 +55,7 @@ HALFLIGHT_INLINE double explained_closure(const DenseMatrix& matrix, const LeafE
 HALFLIGHT_INLINE std::optional<double> close_rows(DenseMatrix& matrix, const LeafExchange& exchange, double limit) {
   const std::size_t n = matrix.size;
   std::vector<double> scale(n, 1.0);
-  double rms = 0.0;  // by which the rows are off at first
+  double rms = 0.0;  // error of the row sums before scaling
   for (int round = 0; round < 400; ++round) {
     double worst = 0.0, square = 0.0, total = 0.0;
     std::vector<double> next(scale);
@@ -94,7 +94,7 @@ HALFLIGHT_INLINE DenseSolution gauss_seidel(const DenseMatrix& matrix, const Lea
   double emitted = 0.0, reflected = 0.0;
   for (std::size_t i = 0; i < n; ++i) { emitted += exchange.area(i) * glm::dot(materials.emission[i], materials.emission[i]); }
   for (;; ++solution.iterations) {
-    double square = 0.0, known = 0.0;  // of what reflects
+    double square = 0.0, known = 0.0;  // known: of reflecting leaves
     for (std::size_t i = 0; i < n; ++i) {
       const Color r = gathered(i) - b[i];
       square += exchange.area(i) * glm::dot(r, r);

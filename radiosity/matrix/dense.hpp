@@ -3,11 +3,11 @@
 
 // Radiosity without links: the two classical ways to solve for the leaves.
 //
-//   Gauss-Seidel   stores the n x n matrix and gathers into one leaf after the other
-//   progressive    stores nothing: the leaf with the most unshot power shoots it, its row made anew each time (Cohen et al. 1988)
+//   Gauss-Seidel   stores the n x n matrix and updates one leaf after the other
+//   progressive    stores no matrix: the leaf with the most unshot power shoots it; its row is computed anew each time (Cohen et al. 1988)
 //
-// Exchanges are those of the links (leaf_exchange.hpp), so a dense solution on the leaves of a hierarchical run shows what the links
-// alone got wrong. Cost: n^2 / 2 exchanges for the matrix, n a shot.
+// Exchanges are computed as for links (leaf_exchange.hpp), so a dense solution on the leaves of a hierarchical run shows the error of the
+// links alone. Cost: n^2 / 2 exchanges for the matrix, n per shot.
 
 #include <cstddef>
 #include <cstdint>
@@ -23,7 +23,7 @@
 
 namespace radiosity {
 
-// All exchanges, row by row; symmetric, with an empty diagonal.
+// All exchanges, row by row; symmetric, with a zero diagonal.
 struct DenseMatrix {
   std::size_t size = 0;
   std::vector<float> entry;
@@ -36,32 +36,32 @@ struct DenseMatrix {
 
 [[nodiscard]] DenseMatrix make_matrix(const LeafExchange& exchange, unsigned threads, const Control& control = {});
 
-// The most that may be wrong with the rows of a closed scene.
+// Largest error of the row sums of a closed scene that the matrix explains.
 [[nodiscard]] double explained_closure(const DenseMatrix& matrix, const LeafExchange& exchange);
 
-// Makes the rows of a closed scene sum to 1, as Transport::close() does. Returns the RMS by which they were off, or nothing, and changes
-// nothing, when that is beyond `limit`.
+// Scales the matrix so that the rows of a closed scene sum to 1, as Transport::close() does. Returns the RMS error of the row sums
+// before; if that exceeds `limit`, returns nothing and changes nothing.
 [[nodiscard]] std::optional<double> close_rows(DenseMatrix& matrix, const LeafExchange& exchange, double limit);
 
 struct DenseSolution {
   std::vector<Color> radiosity;  // of the leaves
-  double residual = 0.0;         // || E + rho H(B) - B || / || E ||, area-weighted; of shooting: unshot power / emitted power
-  std::uint64_t iterations = 0;  // sweeps; of shooting: shots
-  std::uint64_t exchanges = 0;   // of lists alone: rays that were kept
+  double residual = 0.0;         // || E + rho H(B) - B || / || E ||, area-weighted; for shooting: unshot power / emitted power
+  std::uint64_t iterations = 0;  // sweeps; for shooting: shots
+  std::uint64_t exchanges = 0;   // only for gather lists: number of rays kept
   RayCount rays;
   bool converged = false;
   bool cancelled = false;
 };
 
-// Gauss-Seidel until the residual is at most `wanted` times that of B = E, or rounding.
+// Gauss-Seidel until the residual is at most `wanted` times that of B = E, or down to rounding.
 [[nodiscard]] DenseSolution gauss_seidel(const DenseMatrix& matrix, const LeafExchange& exchange, const LeafMaterials& materials,
                                          double wanted, std::uint32_t max_iterations, const Control& control = {});
 
-// Shooting until no more than the fraction `wanted` of the emitted power is unshot.
+// Shoots until at most the fraction `wanted` of the emitted power is unshot.
 [[nodiscard]] DenseSolution shoot(const LeafExchange& exchange, const LeafMaterials& materials, double wanted, std::uint64_t max_shots,
                                   unsigned threads, const Control& control = {});
 
-// The radiosity of the leaves by Gauss-Seidel on the full matrix; empty when cancelled. One entry a node.
+// The radiosity of the leaves by Gauss-Seidel on the full matrix, one entry per node; empty when cancelled.
 [[nodiscard]] std::vector<Color> dense_radiosity(const DiscreteScene& scene, const LeafExchange& exchange, const LeafMaterials& materials,
                                                  double residual);
 

@@ -36,7 +36,7 @@ namespace detail {
   return node.surface - scene.surfaces[node.object].first_surface;
 }
 
-// A point of the exposed part of a leaf, on the true surface.
+// A point of the exposed part of a leaf, projected onto the true surface.
 [[nodiscard]] HALFLIGHT_INLINE raycast::SurfacePoint point_on(const DiscreteScene& scene, std::uint32_t leaf, double u, double v,
                                                               Random& random) {
   const Patch& patch = scene.patches[leaf];
@@ -47,7 +47,7 @@ namespace detail {
   return object.flat() ? raycast::SurfacePoint{x, patch.normal} : object.project(sheet_of(scene, leaf), x);
 }
 
-// The leaves that emit, and the power of all up to each.
+// The leaves that emit, with their cumulative power.
 struct ListLamps {
   explicit ListLamps(const DiscreteScene& scene) {
     double area = 0.0, total = 0.0;
@@ -70,7 +70,7 @@ struct ListLamps {
   double power = 0.0;
 };
 
-// The mean over `count` points of the leaf, with a point of a lamp each, of the light that arrives: irradiance.
+// Irradiance from the lamps: the mean over `count` points of the leaf, each paired with a point of a lamp.
 HALFLIGHT_INLINE Color light_of_lamps(const DiscreteScene& scene, const ListLamps& lamps, std::uint32_t leaf, std::uint32_t count) {
   const Sobol4 sequence{scene.seed, leaf};
   Random random{scene.seed, leaf, 0x6c616d7073ull};
@@ -81,7 +81,7 @@ HALFLIGHT_INLINE Color light_of_lamps(const DiscreteScene& scene, const ListLamp
     std::array<Color, 16> carries{};
     for (std::uint32_t k = 0; k < 16; ++k) {
       std::array<double, 4> u = sequence(first + k);
-      // The lamp is chosen by one coordinate, whose place within the lamp's share goes on as a coordinate on the lamp.
+      // One coordinate chooses the lamp; its position within the lamp's share is reused as a coordinate on the lamp.
       const double at = u[2] * lamps.power;
       const auto l = static_cast<std::size_t>(std::distance(
           lamps.up_to.begin(), std::min(std::upper_bound(lamps.up_to.begin(), lamps.up_to.end(), at), std::prev(lamps.up_to.end()))));
@@ -102,12 +102,12 @@ HALFLIGHT_INLINE Color light_of_lamps(const DiscreteScene& scene, const ListLamp
   return sum / static_cast<double>(count);
 }
 
-// Some points or rays of a leaf, by its area.
+// Number of points or rays of a leaf, in proportion to the square root of its area.
 [[nodiscard]] inline std::uint32_t share_of(std::uint32_t of_largest, std::uint32_t least, double area, double largest) {
   return std::max(least, static_cast<std::uint32_t>(of_largest * std::sqrt(area / largest)));
 }
 
-// What each leaf reflects of the lamps' light, or what it emits where the lists carry that.
+// The lamps' light reflected by each leaf, or the leaf's emission if the lists carry the light of lamps.
 HALFLIGHT_INLINE std::vector<Color> first_light(const DiscreteScene& scene, const ListLamps& lamps,
                                                 const std::vector<std::uint32_t>& points, RayCount& rays) {
   std::vector<Color> light(scene.hierarchy.size(), Color{0.0});
@@ -127,7 +127,7 @@ HALFLIGHT_INLINE std::vector<Color> first_light(const DiscreteScene& scene, cons
   return light;
 }
 
-// The leaves that the rays met, ray by ray; 36 bytes a ray become 4.
+// The leaves that the rays met, ray by ray; 4 bytes a ray instead of 36.
 struct MetLeaves {
   explicit MetLeaves(const StoredRays& rays, std::size_t nodes) {
     to.reserve(rays.size());
@@ -137,10 +137,10 @@ struct MetLeaves {
     }
   }
   std::vector<std::uint32_t> to;  // no_node: nothing that reflects
-  std::vector<std::size_t> end;   // of the rays of each node
+  std::vector<std::size_t> end;   // end of the rays of each node
 };
 
-// Radiosity = first + what is reflected of it, until it changes no more.
+// Iterates radiosity = first + reflected radiosity until it converges.
 HALFLIGHT_INLINE void gather(const DiscreteScene& scene, const MetLeaves& met, const std::vector<Color>& first, double wanted,
                              std::uint32_t max_iterations, DenseSolution& solution) {
   std::vector<Color> next(first.size(), Color{0.0});

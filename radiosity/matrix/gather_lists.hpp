@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Radiosity by the plain program that one would write instead of a hierarchy, in a hundred lines; what the hierarchy is worth shows against
-// it. Each leaf samples the lamps by quasi-random points, chosen by power, with a shadow ray to each, and keeps a list of the leaves that
-// its cosine-distributed rays meet (stored_rays.hpp). All further light is gathered over these lists, again and again (Jacobi).
+// The simple radiosity program that one would write without a hierarchy, in a hundred lines, as a baseline for the hierarchy. Each leaf
+// samples the lamps at quasi-random points, chosen by power, with a shadow ray to each, and stores a list of the leaves that its
+// cosine-distributed rays meet (stored_rays.hpp). Further light is gathered repeatedly over these lists (Jacobi iteration).
 //
-// Lists are not reciprocal: each leaf has its own noise, which the whole solution averages, and no exchange is known from both ends.
-// Where lamps are more than a tenth of the surface the lists carry their light, too: points on a lamp that touches the leaf have a
-// variance without bound.
+// The lists are not reciprocal: each leaf has independent noise, which averages out over the whole solution, and no exchange is computed
+// from both ends. If lamps make up more than a tenth of the surface, the lists carry their light, too, because sampled points on a lamp
+// that touches the leaf would have unbounded variance.
 
 #include <cstdint>
 
@@ -16,14 +16,14 @@
 
 namespace radiosity {
 
-// Of the largest leaf. Others have fewer, as the root of their area, but 16 points and 4 rays at least.
+// For the largest leaf. Others use fewer, in proportion to the square root of their area, but at least 16 points and 4 rays.
 struct ListEffort {
   std::uint32_t lamp_points = 32;
   std::uint32_t rays = 64;
 };
 
-// Gathers until the residual (DenseSolution) is at most `wanted`. The radiosity has one entry a node, that of leaves is filled in. The same
-// for any number of threads.
+// Iterates until the residual (DenseSolution) is at most `wanted`. The radiosity has one entry per node; those of leaves are set. The
+// result does not depend on the number of threads.
 [[nodiscard]] DenseSolution gather_by_lists(const DiscreteScene& scene, const ListEffort& effort, double wanted,
                                             std::uint32_t max_iterations);
 

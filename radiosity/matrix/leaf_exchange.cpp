@@ -31,7 +31,7 @@ HALFLIGHT_INLINE std::size_t exposed_leaves(const Hierarchy& hierarchy, const Ex
 
 HALFLIGHT_INLINE LeafExchange::LeafExchange(const DiscreteScene& scene) : scene_{&scene} {
   const Hierarchy& hierarchy = scene.hierarchy;
-  std::vector<std::uint32_t> root_of(hierarchy.size());  // as an index of roots
+  std::vector<std::uint32_t> root_of(hierarchy.size());  // index into `roots`
   std::vector<std::uint32_t> root_nodes;
   Hierarchy roots;
   for (std::uint32_t i = 0; i < hierarchy.size(); ++i) {
@@ -49,7 +49,7 @@ HALFLIGHT_INLINE LeafExchange::LeafExchange(const DiscreteScene& scene) : scene_
     area_.push_back(scene.exposure.area[i]);
     roots_.push_back(root_of[i]);
   }
-  // What can stand between two input faces is looked up once for all their leaves.
+  // The possible blockers of two input faces are found once for all their leaves.
   count_ = roots.size();
   lists_.assign(count_ * count_, nothing);
   for (std::size_t p = 0; p < count_; ++p) {

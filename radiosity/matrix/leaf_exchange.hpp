@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The exchange between any two leaves, made when it is asked for and not kept: what methods without links work with. Form factors,
-// occluder lists and visibility are those of the links (evaluate.hpp); what can stand between two input faces is looked up once
-// for all their leaves.
+// The exchange between any two leaves, computed on request and not stored; used by the methods without links. Form factors, occluder
+// lists and visibility are those of the links (evaluate.hpp). The possible blockers of two input faces are found once for all their leaves.
 
 #include <cstddef>
 #include <cstdint>
@@ -22,36 +21,36 @@ namespace radiosity {
 
 [[nodiscard]] std::size_t exposed_leaves(const Hierarchy& hierarchy, const Exposure& exposure);
 
-// The exchange between the leaves of which something is exposed.
+// The exchange between leaves with exposed area.
 class LeafExchange {
  public:
-  // The scene must outlive this; its hierarchy stays as it is.
+  // `scene` must outlive this, and its hierarchy must not change.
   explicit LeafExchange(const DiscreteScene& scene);
 
   [[nodiscard]] std::size_t size() const { return leaves_.size(); }
   [[nodiscard]] std::uint32_t node(std::size_t i) const { return leaves_[i]; }
-  [[nodiscard]] double area(std::size_t i) const { return area_[i]; }  // exposed
+  [[nodiscard]] double area(std::size_t i) const { return area_[i]; }  // exposed area
 
-  // A_i F_ij = A_j F_ji with visibility, in the squared unit of the frame. Its doubt has no part by node: leaves express all.
+  // A_i F_ij = A_j F_ji with visibility, in squared units of the frame. Doubt::p and q are 0, because leaves have no children.
   [[nodiscard]] float operator()(std::size_t i, std::size_t j, RayCount& rays, Doubt* doubt = nullptr) const;
 
   [[nodiscard]] std::size_t bytes() const { return (lists_.capacity() * sizeof(std::uint32_t)) + occluders_.bytes(); }
 
  private:
-  static constexpr std::uint32_t nothing = 0xfffffffd;  // of two roots: they exchange no light
+  static constexpr std::uint32_t nothing = 0xfffffffd;  // marks two roots that exchange no light
 
-  // Faces of one flat sheet or of one convex solid do not see each other, and no flat face sees itself.
+  // False for faces of one flat sheet or of one convex solid, which do not see each other, and for a flat face and itself.
   [[nodiscard]] static bool may_exchange(const std::vector<Surface>& surfaces, const Node& a, const Node& b, bool same);
 
   const DiscreteScene* scene_;
   std::vector<std::uint32_t> leaves_, roots_;
   std::vector<double> area_;
-  std::size_t count_ = 0;             // of roots
-  std::vector<std::uint32_t> lists_;  // of each pair of roots
+  std::size_t count_ = 0;             // number of roots
+  std::vector<std::uint32_t> lists_;  // by pair of roots
   OccluderLists occluders_;
 };
 
-// What the leaves do with light, in the order of LeafExchange.
+// Materials of the leaves, in the order of LeafExchange.
 struct LeafMaterials {
   std::vector<Color> reflectance, emission;
 };

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The BF-oracle (paper 4.4) is asked about a link whose error is one of the largest: which end is split? The one that causes more of the
-// error; where that cannot be split any more, the other, if this mends a quarter of the error at least or if the other is a cluster. Asked
-// about a leaf by itself, it splits it.
+// The BF-oracle (paper 4.4) is asked about links with the largest errors: which end is split? It chooses the end that causes more of the
+// error. If that end cannot be split any further, it chooses the other one, if that reduces the error by at least a quarter or is a
+// cluster. A question about a single leaf is answered by splitting it.
 
 #include <algorithm>
 #include <cstdint>

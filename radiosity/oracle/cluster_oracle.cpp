@@ -34,7 +34,7 @@ HALFLIGHT_INLINE Decision ClusterOracle::operator()(const Question& question) co
   const Node& a = question.node_p();
   const Node& b = question.node_q();
   const double min_area = question.min_area;
-  // A patch that may not be split any more leaves it to the cluster.
+  // If a patch may not be split any further, the cluster is split.
   const auto splits = [&](const Node& node) { return node.is_cluster() || !node.leaf() || node.area > min_area; };
   const Decision larger = splits(a) && (a.radius >= b.radius || !splits(b)) ? Decision::split_p : Decision::split_q;
   const glm::dvec3 to_b = b.centre - a.centre;

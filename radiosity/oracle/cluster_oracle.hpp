@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The oracle for pairs with a cluster: may they be linked here? Both must lie well apart, so that one direction stands for all of
-// the other end, and neither may fill more of the other's view than epsilon allows, just as the F-oracle asks of patches. The
-// estimate bounds what any face in them can see: the area shown, in the worst direction of the lattice near by, at the least distance.
+// The oracle for pairs with a cluster: may they be linked at this level? They must lie well apart, so that one direction represents all
+// of the other end, and neither may have a larger form factor to the other than epsilon, as the F-oracle requires of patches. The
+// estimate is an upper bound for every face in them: the largest projected area in the lattice directions near by, at the smallest
+// distance.
 //
 // As epsilon and min_area go to 0 every pair is opened down to its faces, and the links are those of a scene without clusters.
 
@@ -15,13 +16,13 @@
 
 namespace radiosity {
 
-// Distance of the centres over the sum of the radii, at least.
+// Least distance of the centres, relative to the sum of the radii.
 inline constexpr double cluster_separation = 1.5;
 
-// What the node shows to places in the direction d (unit length), from above.
+// Upper bound of the projected area that the node shows in directions within `spread` of d (unit length).
 [[nodiscard]] double most_shown(const Node& node, const ShownAreas& shown, const glm::dvec3& d, double spread);
 
-// Of two different nodes, one of them a cluster.
+// For two different nodes of which at least one is a cluster.
 struct ClusterOracle {
   [[nodiscard]] Decision operator()(const Question& question) const;
 };

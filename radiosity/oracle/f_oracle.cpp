@@ -24,8 +24,8 @@ HALFLIGHT_INLINE glm::dvec3 nearest_point(const Node& patch, const glm::dvec3& x
   return patch.centre + (length > patch.radius ? patch.radius / length : 1.0) * in_plane;
 }
 
-// Greatest height of patch q, or of any finer part of it, above the plane of p or of any finer part of p: the height of q's centre
-// plus the reach of its disk along p's normal. On curved objects finer parts bulge and tilt by the deviation of their normals.
+// Upper bound of the height of q, or of any finer part of it, above the plane of p or of any finer part of p: the height of q's centre
+// plus the extent of its disk along p's normal. On curved objects finer parts bulge and tilt according to the deviation of their normals.
 [[nodiscard]] HALFLIGHT_INLINE double reach_above(const Node& p, const Node& q) {
   const glm::dvec3 d = q.centre - p.centre;
   const double cosine = glm::dot(p.normal, q.normal);
@@ -42,7 +42,7 @@ HALFLIGHT_INLINE double form_factor_estimate(const Node& p, const Node& q) {
   const auto cosine = [&](const Node& from, const Node& to) {
     const double centre = glm::dot(from.normal, to.centre - from.centre);
     const double highest = reach_above(from, to);
-    const bool crosses = 2.0 * centre < even * highest;  // the lowest point lies as far below the centre as the highest above
+    const bool crosses = 2.0 * centre < even * highest;  // the lowest point is as far below the centre as the highest is above
     return std::clamp((crosses ? highest : centre) / r, 0.0, 1.0);
   };
   const double area = std::max(p.area, q.area);

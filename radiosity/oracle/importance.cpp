@@ -21,14 +21,14 @@ namespace radiosity {
 
 namespace detail {
 
-// A picture takes means over what its points see, which takes out most of what single leaves have wrong; and in an ordinary room, where
-// some walls matter a few times as much as others, nothing is to change.
+// Weights are reduced because a picture averages over what its points see, which removes most of the error of single leaves, and because
+// nothing should change in an ordinary room, where some walls matter a few times as much as others.
 inline constexpr double share_of_weight = 0.1;
 inline constexpr double most_weight = 1e4;      // what is seen through a keyhole need not be resolved further
-inline constexpr std::uint32_t few_points = 4;  // points of a node that tell nothing by themselves
-inline constexpr double uneven_part = 0.25;     // of the area
+inline constexpr std::uint32_t few_points = 4;  // so few points in a node are not significant
+inline constexpr double uneven_part = 0.25;     // relative to the area of the node
 
-// Sums over the points of a node.
+// Sums over the points in a node.
 struct PointSums {
   std::uint32_t count = 0;
   double weight = 0.0, squares = 0.0;
@@ -39,7 +39,7 @@ struct PointSums {
     places += point.weight * point.at.position;
     squares += point.weight * glm::dot(point.at.position, point.at.position);
   }
-  // The area of a disk over which points would spread as widely as these: for points that fill a square evenly, twice its area.
+  // Area of a disk over which uniform points would have the same variance; twice the true area for points spread over a square.
   [[nodiscard]] double area() const {
     const glm::dvec3 mean = places / weight;
     return 4.0 * std::numbers::pi * std::max(0.0, squares / weight - glm::dot(mean, mean));
@@ -71,7 +71,7 @@ HALFLIGHT_INLINE void Importance::extend(const Hierarchy& hierarchy, const Patch
     if (node.is_cluster() || !(node.area > 0.0)) { continue; }
     Of& of = nodes_[i];
     of.mean = scale_ * own.weight / node.area;
-    if (own.count < detail::few_points) {  // about as much as on the parent; on an input face nothing
+    if (own.count < detail::few_points) {  // use the density of the parent; on an input face, zero
       of.mean = node.parent != no_node && !is_input_face(hierarchy, i) ? nodes_[node.parent].mean : 0.0;
       of.weight = std::clamp(of.mean, 1.0, detail::most_weight);
       continue;

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The oracle for a cluster of lamps (make_lamp_clusters()) and another node: the F-oracle's question, asked of the other end alone. All
-// faces of a lamp shine about alike, so it may be large in the other's view: what arrives is summed over its points (lamp_exchange.hpp).
-// It is opened where these lie too far apart for that.
+// The oracle for a cluster of lamps (make_lamp_clusters()) and another node: the rule of the F-oracle, applied only to the other end. All
+// faces of a lamp emit about the same, so it may fill a large part of the other's view: its light is a sum over its points
+// (lamp_exchange.hpp). The cluster is opened if these points are too far apart for that.
 
 #include <radiosity/oracle/oracle.hpp>
 
 namespace radiosity {
 
-// Of two different nodes, one of them a cluster of lamps.
+// For two different nodes of which one is a cluster of lamps.
 struct LampOracle {
   [[nodiscard]] Decision operator()(const Question& question) const;
 };

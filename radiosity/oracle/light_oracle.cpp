@@ -35,22 +35,23 @@ namespace radiosity {
 
 namespace detail {
 
-// A leaf no larger than min_area may differ by this many times as much as others: places beside lamps are few, but the light there changes
-// within a hand's breadth. The factor grows as the leaf becomes smaller, so that no lamp however near asks for leaves without end.
+// Factor by which the light on a leaf no larger than min_area may vary more than on others: places beside lamps are few, but the light
+// there changes over short distances. The factor grows as leaves become smaller, so that even a very near lamp does not cause endless
+// splitting.
 [[nodiscard]] HALFLIGHT_INLINE double tolerance_of(const Node& to, double min_area) {
   return to.leaf() && !(to.area > min_area) ? std::max(4.0, std::sqrt(min_area / to.area)) : 1.0;
 }
-inline constexpr double smallest_beside_lamps = 65536.0;  // of min_area: a side is 256 times as short
+inline constexpr double smallest_beside_lamps = 65536.0;  // largest ratio of min_area to a leaf's area: the side is 256 times as short
 
-// Does the light that arrives, from `low` to `high` where nothing stands between, vary by more than epsilon (RMS)? see(round) casts
-// segments and tells which part of them arrives. `tolerance`: that many times epsilon; above 1 edges of shadows do not count.
+// Does the arriving light, which without blockers ranges from `low` to `high`, vary by more than epsilon (RMS)? see(round) casts segments
+// and returns the visible fraction. `tolerance`: factor of epsilon; if it is above 1, shadow edges are ignored.
 template <class See>
 [[nodiscard]] bool varies(double low, double high, double epsilon, double tolerance, RayCount& rays, const See& see) {
   const bool small = tolerance > 1.0;
   const double variation = (high - low) / (std::sqrt(12.0) * tolerance);
   if (!(std::max(variation, small ? 0.0 : 0.5 * high) > epsilon)) { return false; }  // sqrt(V (1 - V)) is at most one half
-  // The smallest shadow that matters covers this part of the patch. Segments enough to meet it three times are cast, unless they are too
-  // many or their first have told.
+  // The smallest shadow that matters covers the share `least` of the patch. Enough segments are cast to meet it three times, unless these
+  // would be too many or the first ones already decide.
   const double mean = 0.5 * (low + high);
   const double least = epsilon * epsilon / (mean * mean);
   const double rounds = std::clamp(std::ceil(3.0 / (segments_per_round * least)), 1.0, 16.0);
@@ -62,15 +63,15 @@ template <class See>
     const double fraction = arrives / static_cast<double>(round + 1);
     const double edges = small ? 0.0 : mean * std::sqrt(std::max(0.0, fraction * (1.0 - fraction)));
     if (std::max(variation * fraction, edges) > epsilon) { return true; }
-    if (cast.cast == 0) { return false; }  // proven
+    if (cast.cast == 0) { return false; }  // proven to be clear or blocked
   }
   return false;
 }
 
-// About the least and the greatest form factor of a patch to a lamp: at its corners and at the point nearest to the lamp, with the normals
-// tilted by the deviation of the patch.
+// Approximate minimum and maximum of the form factor between a patch and a lamp: over its corners and the point nearest to the lamp, with
+// the normals tilted by the deviation of the patch.
 struct FactorRange {
-  // At a point of which the lamp covers this much in front; `cosine`: of the angle between the normal and the lamp.
+  // Adds a point. `facing`: form factor without the cosine at the point; `cosine`: of the angle between the normal and the lamp.
   void add(double facing, double cosine, double tilt) {
     const double angle = std::acos(std::clamp(cosine, -1.0, 1.0));
     low = std::min(low, facing * std::max(0.0, std::cos(angle + tilt)));
@@ -89,21 +90,22 @@ struct FactorRange {
   };
   for (const glm::dvec3& x : patch.contour) { look(x); }
   look(nearest_point(to, lamp.centre));
-  // A lamp that stands across the patch does not shine on the nearest point, but before it, most about half as far as it is high.
+  // A lamp perpendicular to the patch does not light the nearest point but the area in front of it, most strongly at about half of its
+  // height.
   const double height = std::max(lamp.radius, std::abs(glm::dot(to.normal, lamp.centre - to.centre)));
   look(nearest_point(to, lamp.centre + 0.58 * height * lamp.normal));
   return range;
 }
 
-// No disk stands for a cylinder beside a wall: most of the wall that it lights is far from its middle.
+// A disk cannot represent a tube beside a wall, because most of the wall that it lights is far from its centre.
 [[nodiscard]] HALFLIGHT_INLINE bool is_near_and_long(const Node& lamp, const Node& to, const Patch& outline) {
-  constexpr double most = 4.0;  // area of the disk around it, relative to its own: that of a rectangle of 5 : 1
+  constexpr double most = 4.0;  // area of the bounding disk relative to that of the lamp; a rectangle of 5 : 1 has this ratio
   const bool is_long = std::numbers::pi * lamp.radius * lamp.radius > most * lamp.area;
-  // From four radii on the kernel of its centre is within a quarter of that of a line.
+  // From a distance of four radii on, the kernel of its centre is within a quarter of that of a line.
   return is_long && outline.parts.empty() && glm::length(lamp.centre - to.centre) < 4.0 * lamp.radius + to.radius;
 }
 
-// The point of the outline of a polygon that is nearest to x.
+// The point nearest to x on the outline of a polygon.
 [[nodiscard]] HALFLIGHT_INLINE glm::dvec3 nearest_on_outline(const Polygon& polygon, const glm::dvec3& x) {
   glm::dvec3 nearest = polygon.front();
   for (std::size_t i = 0; i < polygon.size(); ++i) {
@@ -116,8 +118,8 @@ struct FactorRange {
   return nearest;
 }
 
-// The middle of the part of a convex polygon that lies over a patch; else the point of its outline that is nearest to the centre. Where a
-// lamp touches the patch along an edge, the middle is lit most, and its outline tells nothing.
+// The centre of the part of a convex polygon that lies above a patch, or, if there is none, the point of its outline nearest to the
+// patch's centre. Where a lamp touches the patch along an edge, the middle is lit most, which the outline alone would not show.
 [[nodiscard]] HALFLIGHT_INLINE glm::dvec3 nearest_of_lamp(const Node& to, const Patch& patch, const Polygon& outline) {
   Polygon over = outline, part;
   for (std::size_t i = 0; i < patch.contour.size() && over.size() > 2; ++i) {
@@ -168,7 +170,7 @@ HALFLIGHT_INLINE LightOracle::LightOracle(const Scene& input, const SceneView& s
   }
   const LitFaces lit{scene, reflectance, exitance, buried};
   scene_area_ = lit.area();
-  std::map<std::pair<std::uint32_t, double>, double> alike;  // area of what shines alike, by object
+  std::map<std::pair<std::uint32_t, double>, double> alike;  // area of faces with equal emission, by object
   for (std::size_t i = 0; i < hierarchy.size(); ++i) {
     if (!is_input_face(hierarchy, i) || (i < buried.size() && buried[i])) { continue; }
     const Node& root = hierarchy[i];
@@ -178,7 +180,8 @@ HALFLIGHT_INLINE LightOracle::LightOracle(const Scene& input, const SceneView& s
   for (std::size_t i = 0; i < hierarchy.size(); ++i) {
     const Node& root = hierarchy[i];
     if (!is_input_face(hierarchy, i)) { continue; }
-    const bool room = scene.objects.object(root.object).inside();  // its faces are no parts of one lamp: they shine all around
+    // The faces of a room do not form one lamp, because they surround everything.
+    const bool room = scene.objects.object(root.object).inside();
     lamp_area_[root.surface] = room ? 0.0 : alike[{root.object, emission_[root.surface]}];
   }
   for (double& e : emission_) { e = lit.mean_emission() > 0.0 ? e / lit.mean_emission() : 0.0; }
@@ -207,8 +210,8 @@ HALFLIGHT_INLINE std::uint32_t LightOracle::wants_split(const Question& question
   const std::uint32_t lamp = q_shines ? q : p;
   const Node& to = nodes[receiver];
   const Node& from = nodes[lamp];
-  // A light of k parts, be they faces of one bulb or pieces of a face, has k links here; their variations add up to between sqrt k and k
-  // of one.
+  // A lamp of k parts (faces of one bulb, or pieces of a face) has k links to the receiver; their variations add up to between sqrt(k)
+  // and k times that of one.
   const double parts = from.is_cluster() ? 1.0 : std::max(lamp_area_[from.surface], nodes[input_face(nodes, lamp)].area) / from.area;
   const double shown = to.is_cluster() ? 1.0 : shows_[to.surface];
   const double important = question.importance != nullptr ? question.importance->weight(receiver) : 1.0;
@@ -268,7 +271,7 @@ HALFLIGHT_INLINE std::uint32_t LightOracle::wants_cluster_split(std::uint32_t re
   const Node& from = scene_.hierarchy[source];
   const glm::dvec3 d = from.centre - to.centre;
   const double r = glm::length(d);
-  // A cluster that holds one much brighter element is split first, so that the lamp gets its own link.
+  // A cluster that contains one much brighter element is split first, so that the lamp gets its own link.
   const bool mixed = from.is_cluster() && of_cluster_[from.cluster].brightest > 2.0 * of_cluster_[from.cluster].mean;
   const double area = most_shown(from, *shown_, -d / r, 0.0);
   const auto at = [&](double distance) { return area / (std::numbers::pi * distance * distance + area); };

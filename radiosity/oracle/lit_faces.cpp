@@ -23,7 +23,7 @@ namespace radiosity {
 
 namespace detail {
 
-// What falls on these faces of one surface from others that shine, by cosine-distributed rays from their middles.
+// Irradiance on these faces of one surface from other emitters, by cosine-distributed rays from their centres.
 [[nodiscard]] HALFLIGHT_INLINE double light_from_others(const SceneView& scene, std::span<const Color> emission,
                                                         std::span<const std::uint32_t> faces, std::size_t rays) {
   double sum = 0.0, area = 0.0;
@@ -63,7 +63,7 @@ HALFLIGHT_INLINE LitFaces::LitFaces(const SceneView& scene, std::span<const Colo
     const double to_mean = power_ > 0.0 ? brightest(emission[s]) * (all / power_) : 0.0;
     of_surface_[s] = is_black(reflectance[s]) ? 0.0 : std::clamp(2.0 * (1.0 - to_mean), 0.0, 1.0);
   }
-  std::vector<std::vector<std::uint32_t>> bright(emission.size());  // faces, by surface
+  std::vector<std::vector<std::uint32_t>> bright(emission.size());  // by surface
   std::size_t count = 0;
   for (std::uint32_t i = 0; i < hierarchy.size(); ++i) {
     if (!counts(i) || is_black(reflectance[hierarchy[i].surface]) || of_surface_[hierarchy[i].surface] == 1.0) { continue; }

@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The oracle (paper 4.3, 4.4): may these two nodes exchange light by one link, or must one of them be split first? All oracles, ours and a
-// user's, are values of one kind: a function of a Question that answers with a Decision.
+// The oracle (paper 4.3, 4.4): may these two nodes exchange light by one link, or must one of them be split first? Every oracle, built-in
+// or user-defined, is a function of a Question that returns a Decision.
 //
-//   ProofOracle    two nodes that cannot see each other; asked before all others
-//   FOracle        F-refinement: the form factor estimate of a link must not exceed epsilon; with a cluster, ClusterOracle
-//   LightOracle    F-refinement: nor may the light of a lamp vary too much over the receiver of a link; asked after FOracle
+//   ProofOracle    finds nodes that cannot see each other; asked before all others
+//   FOracle        F-refinement: the estimated form factor of a link must not exceed epsilon; pairs with a cluster: ClusterOracle
+//   LightOracle    F-refinement: the light of a lamp must not vary too much over the receiver of a link; asked after FOracle
 //   BfOracle       BF-refinement: which end of a link with a large error is split
 //
-// A user's oracle (Options::oracle) is asked in place of FOracle and of BfOracle. What it must promise:
+// A user's oracle (Options::oracle) replaces FOracle and BfOracle. Its contract:
 //
-//   - The same question has the same answer, from whichever thread it comes: many are asked at once, and results do not depend on threads.
-//   - It answers link, split_p or split_q; drop only where no light passes. Two nodes that are proven not to see each other are not asked.
-//   - It agrees to a link once patches are small enough. In any case two leaves of which neither is larger than min_area are linked, and
-//     the limits on links and memory hold.
+//   - It is deterministic and thread-safe: the same question always has the same answer, and many are asked at the same time.
+//   - It answers link, split_p or split_q; drop only if no light passes. It is not asked about nodes that provably do not see each other.
+//   - It agrees to a link once patches are small enough. In any case, two leaves not larger than min_area are linked, and the limits on
+//     links and memory apply.
 
 #include <concepts>
 #include <cstdint>
@@ -36,11 +36,11 @@ enum class Decision : unsigned char {
   convex,   // proven: they lie in one plane or on one convex solid
   hide,     // proven: they cannot see each other
   link,     // exchange light at this level
-  split_p,  // too much light for one link: split the first,
-  split_q,  // or the second node; a cluster is opened
+  split_p,  // too much light for one link: split the first node
+  split_q,  // split the second node; a cluster is opened
 };
 
-inline constexpr Decision first_seeing = Decision::link;  // those before it end the matter
+inline constexpr Decision first_seeing = Decision::link;  // the decisions before it are final
 
 // By how much splitting each end of a link would reduce its squared error (link_error.hpp).
 struct LinkError {
@@ -48,27 +48,27 @@ struct LinkError {
   [[nodiscard]] float sum() const { return p + q; }
 };
 
-// What an oracle is asked. Lengths and areas are those of the frame (frame.hpp), in which the size of the scene lies in [1, 2). Either node
-// may be a cluster, which has no normal and whose area is that of all faces below it.
+// A question to an oracle. Lengths and areas are in the frame (frame.hpp), in which the size of the scene is in [1, 2). Either node may
+// be a cluster, which has no normal and whose area is the sum over all faces below it.
 struct Question {
   const Hierarchy& hierarchy;
-  std::uint32_t p = no_node, q = no_node;    // equal: a leaf over which the light varies, is it split while its links stay? BF alone
+  std::uint32_t p = no_node, q = no_node;    // if p == q, a leaf: is it split while its links stay? Only in BF-refinement
   const ShownAreas& shown;                   // projected areas of the clusters
-  double epsilon = 0.0;                      // largest form factor of a link; of LightOracle, share of the error
-  double min_area = 0.0;                     // of a leaf that may be split
-  const std::vector<bool>* stuck = nullptr;  // leaves that the BRep refused to split, if there are any
+  double epsilon = 0.0;                      // largest form factor of a link; for LightOracle, share of the error
+  double min_area = 0.0;                     // least area of a leaf that may be split
+  const std::vector<bool>* stuck = nullptr;  // leaves that the BRep refused to split, or null
 
-  // For LightOracle alone: what can stand between the nodes.
+  // Only for LightOracle: the possible blockers between the nodes.
   const raycast::OccluderList* between = nullptr;
-  RayCount* rays = nullptr;                // for LightOracle alone: counts the segments that it casts
-  const Importance* importance = nullptr;  // for LightOracle alone: for which picture nodes count, if for one
+  RayCount* rays = nullptr;                // only for LightOracle: counts the segments that it casts
+  const Importance* importance = nullptr;  // only for LightOracle: weights of the nodes in a picture, or null
 
-  // Of BF-refinement alone: the link carries light, and its error is one of the largest.
+  // Only for BF-refinement: the link's error, which is one of the largest.
   const LinkError* error = nullptr;
 
   [[nodiscard]] const Node& node_p() const { return hierarchy[p]; }
   [[nodiscard]] const Node& node_q() const { return hierarchy[q]; }
-  // Can the node be split, or has it been?
+  // Can the node be split, or has it been split already?
   [[nodiscard]] bool can_split(std::uint32_t i) const {
     const bool is_stuck = stuck != nullptr && i < stuck->size() && (*stuck)[i];
     return !hierarchy[i].leaf() || (hierarchy[i].area > min_area && !is_stuck);
@@ -78,7 +78,7 @@ struct Question {
 template <class O>
 concept Oracle = std::copy_constructible<O> && std::is_invocable_r_v<Decision, const O&, const Question&>;
 
-// Any oracle, by one indirect call.
+// Holds any oracle, at the cost of one indirect call.
 using AnyOracle = std::function<Decision(const Question&)>;
 static_assert(Oracle<AnyOracle>);
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Which pairs of nodes are proven not to see each other, whatever stands between them: faces in one plane or on one convex solid, faces
-// that are buried, and patches that face away from each other. Asked about every pair before any other oracle.
+// Finds pairs of nodes that provably do not see each other, whatever stands between them: faces in one plane or on one convex solid,
+// buried faces, and patches that face away from each other. Asked about every pair before any other oracle.
 
 #include <cstddef>
 #include <cstdint>
@@ -20,21 +20,21 @@ namespace radiosity {
 
 class ProofOracle {
  public:
-  // The references must outlive the oracle; the hierarchy holds clusters and input faces when it is made, and may grow.
+  // The references must outlive the oracle. At construction the hierarchy holds only clusters and input faces; it may grow afterwards.
   ProofOracle(const std::vector<Surface>& surfaces, const Hierarchy& hierarchy)
       : surfaces_{&surfaces}, buried_{buried_nodes(surfaces, hierarchy)} {}
 
-  // Do both lie in one plane or on one convex solid?
+  // Do both nodes lie in one plane or on one convex solid?
   [[nodiscard]] bool convex(const Node& a, const Node& b) const {
     if (a.object != b.object || a.object == no_node) { return false; }
     const raycast::PlacedObject& object = *(*surfaces_)[a.object].object;
     const bool sees_itself = object.inside() || !object.convex();
     return !sees_itself || (object.flat() && a.surface == b.surface && a.surface != no_node);
   }
-  // Is nothing to be seen of this node, which existed when the oracle was made?
+  // Is this node buried? False for nodes made after the oracle.
   [[nodiscard]] bool buried(std::uint32_t i) const { return i < buried_.size() && buried_[i]; }
   [[nodiscard]] const std::vector<bool>& buried() const { return buried_; }
-  // A proof, or link when there is none. A cluster and itself is split.
+  // The proof, or Decision::link if there is none. A cluster paired with itself is split.
   [[nodiscard]] Decision operator()(const Question& question) const {
     const Node& p = question.node_p();
     const Node& q = question.node_q();

@@ -39,22 +39,23 @@ namespace radiosity {
 namespace detail {
 
 inline constexpr std::uint32_t no_spot = 0xffffffff;
-// What reflects so much more than all surfaces do in the mean, but for brighter spots, is a spot: a housing with a lamp in it may hold most
-// of all light and let little of it out, and beside it a lit strip of wall would be none.
+// A surface counts as a spot if it reflects this many times as much as the mean of all surfaces without brighter spots. These are removed
+// from the mean in rounds, because a housing with a lamp inside may hold most of the light and let little of it out; a lit strip of wall
+// would not stand out beside it.
 inline constexpr double least_contrast = 4.0;
 inline constexpr int most_rounds = 8;
-// Of those that a point sends out evenly, about.
+// Approximate number of uniform rays that a point sends.
 inline constexpr double even_rays = 512.0;
-// Each takes some operations a point; a point sends hundreds of rays.
+// Limit, because each group costs some operations per point; a point sends hundreds of rays.
 inline constexpr std::size_t most_groups = 128;
-// Photons: so many are to land on what is no spot, but no more are sent out than these.
+// Number of photons that should land outside the spots, limit of the number sent, and size of a batch.
 inline constexpr std::uint32_t wanted_photons = 1u << 13, most_photons = 1u << 16, photons_at_once = 1u << 12;
-inline constexpr double photon_reach = 0.1;  // of the diameter of the scene
-// In photons: how much what spots would send though nothing stood between counts beside the photons around a point.
+inline constexpr double photon_reach = 0.1;  // relative to the diameter of the scene
+// Weight of the unoccluded light of the spots, compared with the photons around a point; in photons.
 inline constexpr double unhidden_photons = 12.0;
 
-// The area of what a triangle stands for: that of four triangles whose new corners are on the surface, and a third of what these add, for
-// the error of a chord falls by four.
+// The area of the surface above a triangle: that of four triangles whose new corners lie on the surface, plus a third of the difference
+// to the flat triangle, because the error of a chord falls to a quarter.
 [[nodiscard]] HALFLIGHT_INLINE double true_area(const raycast::PlacedObject& object, std::uint32_t sheet, const ChordTriangle& triangle) {
   const auto area = [](const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
     return 0.5 * glm::length(glm::cross(b - a, c - a));
@@ -98,7 +99,7 @@ HALFLIGHT_INLINE BrightSpots::BrightSpots(const Lookup& lookup, const DirectLigh
       }
     }
   }
-  auto last = spots_.end();  // from there on they are spots
+  auto last = spots_.end();  // spots are the elements from here on
   for (int round = 0; round < detail::most_rounds && area > 0.0; ++round) {
     const double least = detail::least_contrast * power / area;
     const auto first = std::stable_partition(spots_.begin(), last, [&](const Spot& spot) { return !(spot.power > least * spot.area); });
@@ -156,7 +157,7 @@ HALFLIGHT_INLINE std::uint32_t BrightSpots::cut(const Group& group) {
 }
 
 HALFLIGHT_INLINE void BrightSpots::make_groups() {
-  std::priority_queue<std::pair<double, std::uint32_t>> open;  // worth of a cut, group
+  std::priority_queue<std::pair<double, std::uint32_t>> open;  // benefit of splitting, group
   const auto enter = [&](std::uint32_t g) {
     const Group& group = groups_[g];
     if (group.last - group.first > 1) { open.emplace(std::sqrt(group.power) * group.radius * (1.5 - glm::length(group.normal)), g); }
@@ -220,9 +221,10 @@ HALFLIGHT_INLINE void BrightSpots::send16(const DirectLight& direct, std::uint32
     const std::array<double, 4> u = sequence(first + k);
     const auto [g, rest] = group_at(until, u[0]);
     const Spot& spot = spot_at(groups_[g], rest);
-    const double left = (rest * groups_[g].power - (spot.until - spot.power)) / spot.power;  // of the first number: it is the fourth
+    // Position within the spot's interval, reused as the fourth random number.
+    const double left = (rest * groups_[g].power - (spot.until - spot.power)) / spot.power;
     const Target from = point_of(spot, u[3], std::clamp(left, 0.0, 1.0));
-    const double lift = direct.lift(from.object);  // above a mesh that stands in for it, which its true surface may lie behind
+    const double lift = direct.lift(from.object);  // the true surface may lie behind the mesh that stands in for it
     const glm::dvec3 above = direct.lifted(from.object, from.point.position, from.point.normal);
     rays.set(k, {above, reach * cosine_direction(from.point.normal, u[1], u[2])}, lift > 0.0 ? raycast::no_object : from.object,
              raycast::no_object, from.sheet);
@@ -245,8 +247,8 @@ HALFLIGHT_INLINE void BrightSpots::send_photons(const DirectLight& direct) {
   Photons photons{std::vector<std::uint32_t>(groups_.size(), 0), std::vector<std::uint32_t>(groups_.size(), 0), {}};
   std::uint32_t sent = 0, elsewhere = 0;
   while (sent < detail::most_photons && elsewhere < detail::wanted_photons) {
-    // A group of which most light goes to other spots, in a housing, sends fewer: by the root of the share that gets out, which
-    // gives the least variance for a number of photons (Neyman 1934).
+    // A group in a housing, most of whose light goes to other spots, sends fewer photons: in proportion to the square root of the share
+    // that gets out, which minimizes the variance for a given number of photons (Neyman 1934).
     std::vector<double> until;
     double all = 0.0;
     for (std::size_t g = 0; g < groups_.size(); ++g) {
@@ -284,15 +286,16 @@ HALFLIGHT_INLINE BrightSpots::From::From(const BrightSpots& spots, const glm::dv
   for (const std::uint32_t i : found.photons) { landed += spots.photons_[i].power; }
   for (double& w : weight) { w *= all > 0.0 ? detail::unhidden_photons / all : 0.0; }
   const double count = static_cast<double>(found.photons.size());
-  // Of what is brightest first: rays lie evenly over what is as bright or brighter, and do not know of a border within what is darker.
-  std::vector<std::pair<double, double>> bright;  // radiosity of a photon's group, irradiance by it
+  // Brightest first: rays are stratified over all regions that are as bright or brighter, so borders within darker regions do not add
+  // variance.
+  std::vector<std::pair<double, double>> bright;  // radiosity of the photon's group, irradiance by this photon
   for (const std::uint32_t i : found.photons) {
     const SpotPhotons::Photon& photon = spots.photons_[i];
     weight[photon.group] += count * photon.power / landed;
     bright.emplace_back(spots.groups_[photon.group].radiosity, photon.power / (std::numbers::pi * found.radius * found.radius));
   }
   std::sort(bright.begin(), bright.end(), std::greater<>{});
-  double factor = 0.0;  // share of even rays that meet what is as bright
+  double factor = 0.0;  // share of uniform rays that meet a spot at least as bright
   for (const auto& [radiosity, light] : bright) {
     factor += light / radiosity;
     square_ += light * radiosity;

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Small surfaces that reflect far more light than others do: the ceiling above a lamp, a sill in the sun, the inside of a housing. Of the
-// rays that a point sends out evenly a few meet such a spot, or none does, so what they say of its light is noise: blotches in a picture.
-// Here a point can choose points of the spots instead, by the light that it may get from them, and tell how likely a choice was; both ways
-// are then combined by the balance heuristic (Veach and Guibas 1995).
+// Small surfaces that reflect far more light than others: the ceiling above a lamp, a sill in the sun, the inside of a housing. Of the
+// rays that a point sends out uniformly, only a few or none meet such a spot, so their estimate of its light is noisy and causes blotches
+// in a picture. This class lets a point choose points of the spots instead, by the light that it may receive from them, and provides the
+// probability of each choice; both sampling methods are combined by the balance heuristic (Veach and Guibas 1995).
 //
-// The spots are triangles of the solution's mesh, in groups. From a point each group is as likely as the light that it sends there, by the
-// photons that landed around the point (spot_photons.hpp); a small part goes by what it would send though nothing stood between, for where
-// photons are few. Each triangle of a group is chosen by its power, each point of a triangle alike.
+// The spots are triangles of the solution's mesh, in groups. A group is chosen with a probability proportional to the light that it sends
+// to the point, estimated from the photons that landed around the point (spot_photons.hpp); a small part of the probability follows the
+// unoccluded light, for places with few photons. Within a group a triangle is chosen by its power, and a point uniformly within the
+// triangle.
 
 #include <array>
 #include <cstddef>
@@ -30,9 +31,10 @@ namespace radiosity {
 
 class BrightSpots {
  public:
-  // None.
+  // No spots.
   BrightSpots() = default;
-  // Of what a solution shows, but for `apart`: by input surface, light that is found in other ways. `lookup` must outlive this.
+  // Finds the spots in what a solution shows, minus `apart`: by input surface, light that is found in other ways. `lookup` must outlive
+  // this.
   BrightSpots(const Lookup& lookup, const DirectLight& direct, std::span<const Color> apart);
 
   [[nodiscard]] bool empty() const { return groups_.empty(); }
@@ -42,39 +44,40 @@ class BrightSpots {
     std::uint32_t object = 0, sheet = 0;
   };
 
-  // Has a ray from here that was aimed at a target met it? Where meshes stand in for its object (direct_light.hpp) these are met, a little
-  // beside it.
+  // Has a ray from `from`, aimed at a target, met it? If meshes stand in for the target's object (direct_light.hpp), the hit may be
+  // slightly off the target.
   [[nodiscard]] static bool reached(const DirectLight& direct, const Target& target, const glm::dvec3& from, const Met& met);
 
-  // What a point of a surface sees of them.
+  // The distribution of the spots' light as seen from a point of a surface.
   class From {
    public:
     From(const BrightSpots& spots, const raycast::SurfacePoint& point) : From{spots, point.position, &point.normal} {}
-    // The same of points near this one, whichever way they face.
+    // The same for points near this one, with any normal.
     From(const BrightSpots& spots, const glm::dvec3& position) : From{spots, position, nullptr} {}
-    // The root mean square of what even rays find of the spots, in this light, the irradiance at the point (sum of channels, W/m2). Where
-    // many of them meet spots it is that of the border alone, for rays lie evenly. Over the root of their number it is the error that the
-    // spots leave.
+    // RMS of the contribution of the spots to a single uniform ray, relative to `light`, the irradiance at the point (sum of channels,
+    // W/m2). If many rays meet spots, only the contribution of the spots' borders counts, because the rays are stratified. Divided by the
+    // square root of the number of rays, it is the relative error caused by the spots.
     [[nodiscard]] double contrast(double light) const;
-    // Does a single even ray spread more by the spots than this light? So it is with paths, which meet each spot by chance alone.
+    // Does the contribution of the spots to a single ray have an RMS above `light`? Used for paths, which are not stratified over the
+    // spots.
     [[nodiscard]] bool spread_more_than(double light) const { return square_ > light * light; }
-    // A point of the spots, by numbers in (0, 1).
+    // Chooses a point of the spots, by numbers in (0, 1).
     [[nodiscard]] Target choose(const std::array<double, 4>& numbers) const;
-    // The probability by area with which that chooses points of this triangle of an input surface; 0 where it is no spot.
+    // Probability density by area with which choose() picks points of this triangle of an input surface; 0 if it is no spot.
     [[nodiscard]] double density(std::uint32_t surface, std::uint32_t triangle) const;
-    // The probability with which that chooses a place that was met from `here`, in that of an even ray from there.
+    // The density with which choose() picks a place `there` seen from `here`, relative to that of a uniform ray.
     [[nodiscard]] double aimed(std::uint32_t surface, const Lookup::Found& found, const raycast::SurfacePoint& here,
                                const raycast::SurfacePoint& there) const;
 
    private:
     From(const BrightSpots& spots, const glm::dvec3& position, const glm::dvec3* normal);
-    // By group, what it would send here though nothing stood between, W/m2; and their sum.
+    // Computes the unoccluded light of each group at this point, W/m2; returns the sum.
     [[nodiscard]] double unhidden(const glm::dvec3& position, const glm::dvec3* normal, std::vector<double>& light) const;
 
     const BrightSpots* spots_;
-    std::vector<double> until_;  // by group: the probability of it and of those before it
-    double square_ = 0.0;        // mean square of what even rays find of the spots
-    double border_ = 0.0;        // what is left of it where rays lie so evenly that borders of spots alone count
+    std::vector<double> until_;  // by group: cumulative probability
+    double square_ = 0.0;        // mean square of the spots' contribution to a uniform ray
+    double border_ = 0.0;        // the part of it that remains with stratified rays: that of the spots' borders
   };
 
  private:
@@ -82,43 +85,44 @@ class BrightSpots {
     std::uint32_t object = 0, sheet = 0, triangle = 0;
     std::uint32_t group = 0;
     glm::dvec3 middle{0.0}, normal{0.0};
-    double area = 0.0, power = 0.0;  // of the true surface; the power is the sum of its channels
-    double until = 0.0;              // power of it and of those of its group that stand before it
+    double area = 0.0, power = 0.0;  // area of the true surface; power is the sum of the channels
+    double until = 0.0;              // cumulative power within its group, up to and including it
   };
   struct Group {
-    std::uint32_t first = 0, last = 0;    // spots
-    glm::dvec3 middle{0.0}, normal{0.0};  // means by power; the normal is shorter than 1 where theirs differ
-    double radius = 0.0, power = 0.0;     // RMS distance from the middle
-    double radiosity = 0.0;               // mean by power, sum of channels
+    std::uint32_t first = 0, last = 0;    // range of its spots
+    glm::dvec3 middle{0.0}, normal{0.0};  // means weighted by power; the normal is shorter than 1 if the normals differ
+    double radius = 0.0, power = 0.0;     // radius: RMS distance from the middle
+    double radiosity = 0.0;               // mean weighted by power, sum of the channels
   };
-  // Cuts the group whose light differs most from one of its spots to the next in two, until groups are many.
+  // Repeatedly splits the group whose light varies most between its spots, until there are enough groups.
   void make_groups();
-  // Sorts the spots of a group where they differ most, by place or by normal. Returns the first of the second part.
+  // Partitions the spots of a group along the axis of largest variation, of position or normal. Returns the first spot of the second part.
   [[nodiscard]] std::uint32_t cut(const Group& group);
   [[nodiscard]] Group group_of(std::uint32_t first, std::uint32_t last) const;
-  // A group by a number in (0, 1), where `until` has the probability of each and those before it; the number within its range.
+  // A group chosen by a number in (0, 1), given the cumulative probabilities `until`; `rest`: the position of the number within the
+  // group's interval.
   struct Chosen {
     std::size_t group = 0;
     double rest = 0.0;
   };
   [[nodiscard]] static Chosen group_at(std::span<const double> until, double number);
-  // A spot of a group by power.
+  // Chooses a spot of a group by power.
   [[nodiscard]] const Spot& spot_at(const Group& group, double number) const;
-  // A point of a spot's triangle, by two numbers in (0, 1): all are as likely.
+  // A point uniformly distributed on a spot's triangle, by two numbers in (0, 1).
   [[nodiscard]] Target point_of(const Spot& spot, double u, double v) const;
   struct Photons {
-    std::vector<std::uint32_t> sent, elsewhere;  // by group; of these, how many landed on what is no spot
+    std::vector<std::uint32_t> sent, elsewhere;  // by group: photons sent, and how many of them landed outside the spots
     std::vector<SpotPhotons::Photon> landed;
   };
-  // Sends out photons until enough have landed on what is no spot.
+  // Sends photons until enough have landed outside the spots.
   void send_photons(const DirectLight& direct);
-  // Sends sixteen, from number `first` on; `until`: by group, the probability of it and of those before it.
+  // Sends sixteen photons, beginning with number `first`; `until`: cumulative probability of the groups.
   void send16(const DirectLight& direct, std::uint32_t first, const std::vector<double>& until, Photons& photons) const;
 
   const Lookup* lookup_ = nullptr;
-  std::vector<Spot> spots_;  // by group
+  std::vector<Spot> spots_;  // sorted by group
   std::vector<Group> groups_;
-  std::vector<std::vector<std::uint32_t>> spot_of_;  // by input surface and triangle: number of the spot, or none
+  std::vector<std::vector<std::uint32_t>> spot_of_;  // by input surface and triangle: index of the spot, or none
   SpotPhotons photons_;
 };
 

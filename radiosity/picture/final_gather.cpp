@@ -52,7 +52,7 @@ HALFLIGHT_INLINE FinalGather::FinalGather(const Scene& scene, const Mesh& mesh, 
   std::vector<Surface> boundaries;
   for (std::uint32_t o = 0; o < objects().size(); ++o) {
     SurfaceResult made = make_surface(objects().object(o), lookup_.surface(o, 0));
-    if (!made.surface) { return; }  // no solution of this scene
+    if (!made.surface) { return; }  // such a scene has no solution
     boundaries.push_back(std::move(*made.surface));
   }
   lookup_.leave_out(copies(boundaries));
@@ -146,7 +146,7 @@ HALFLIGHT_INLINE LitRegion FinalGather::lit_region(std::span<const Place> places
            std::abs(glm::dot(place.point.position - first.point.position, first.point.normal)) < rounding;
   });
   if (flat) { n = first.point.normal; }
-  // A flat rectangle around the points, with how far those of a curved surface leave it.
+  // A flat rectangle around the points; on a curved surface also their largest distance from it.
   const auto [s, t] = orthonormal(n);
   glm::dvec3 lo{0.0}, hi{0.0};
   for (const Place& place : places) {
@@ -163,18 +163,18 @@ HALFLIGHT_INLINE LitRegion FinalGather::lit_region(std::span<const Place> places
 
 namespace detail {
 
-// Rays to bright spots come by sixteen, after every 64 even ones, at most four times: the more, the more the spots stand out.
+// Sixteen aimed rays are cast up to four times after every 64 uniform ones; more often if the spots stand out more.
 inline constexpr double most_aimed = 4.0;
-inline constexpr std::uint32_t enough_spots = 32;  // met by them: then their spread tells how sure they are
+inline constexpr std::uint32_t enough_spots = 32;  // spot hits of aimed rays from which their spread is a reliable estimate of the error
 
-// Light from near by is followed where it is at least this share of all. If there are at most this many paths, they are taken to differ by
-// their mean; if there are more, by so much more.
+// Light from nearby is recomputed by paths if it is at least this share of all light. If there are at most `plain_paths` paths, the
+// standard deviation of a path is assumed to equal its mean; for more paths, it is assumed to grow in proportion.
 inline constexpr double least_near = 0.05, plain_paths = 256.0;
 
-// What so few rays meet may hide as much of the light of a point: an eave above it, a leg of a table.
+// Share of the rays that may meet a small object near the point, such as an eave or a table leg, which hides much of its light.
 inline constexpr double few_rays = 0.01;
 
-inline constexpr double least_distance = 1e-6;  // of what is seen, in a scene of size 1 to 2: nearer counts as this
+inline constexpr double least_distance = 1e-6;  // lower limit of the distances of hits, in a scene of size 1 to 2
 
 }  // namespace detail
 
@@ -278,8 +278,9 @@ HALFLIGHT_INLINE FinalGather::Indirect FinalGather::indirect(const Place& place,
                 place.surface - lookup_.surface(place.object, 0),
                 {spots_, place.point}};
   const double solved_light = irradiance_solved(place);
-  // From where the spots alone would leave the fewest even rays more than half of the wanted error. Rays that miss the spots agree with
-  // each other, so to wait for their spread to tell would favour points that come out too dark.
+  // Rays are aimed if the spots alone would leave the least number of uniform rays with more than half of the wanted error. The decision
+  // uses the solution, not the spread of the rays: rays that all miss the spots agree with each other, and points that come out too dark
+  // would be favoured.
   if (const double contrast = sender.spots.contrast(solved_light); contrast > 0.5 * error * std::sqrt(static_cast<double>(least))) {
     sender.aimed = static_cast<std::uint32_t>(std::clamp(0.5 * contrast, 1.0, detail::most_aimed));
   }
@@ -292,7 +293,7 @@ HALFLIGHT_INLINE FinalGather::Indirect FinalGather::indirect(const Place& place,
     for (const double p : sum.part) { squares += (p - mean) * (p - mean) / 12.0; }
     return squares;
   };
-  // Where spots count, rays that met few of them are not believed because they agree: the solution must not know of more light.
+  // If spots matter but few rays have met them, agreement of the rays is not trusted while the solution shows more light.
   std::optional<Color> direct;  // light from lamps
   const auto all_found = [&] {
     const double wanted = (1.0 - error) * solved_light - of_reflected_channels(place, sum.light) / rays;

@@ -21,28 +21,29 @@ namespace radiosity {
 
 namespace detail {
 
-inline constexpr double inner_sphere = 0.7;         // part of a sphere's radius
-inline constexpr double same_way = 0.9;             // cosine of two normals between which light is carried over
-inline constexpr double out_of_plane = 0.2;         // of a sphere's radius: what is farther off its tangent plane is another surface
-inline constexpr double explained_by_noise = 1.25;  // most that the misfit may be (PlaneFit)
-// How far a plane that explains its points may leave their range, in the width of this; and at most, as a factor.
+inline constexpr double inner_sphere = 0.7;  // relative to the radius of a sphere
+inline constexpr double same_way = 0.9;      // least cosine between the normals of points that share light
+// Relative to the radius of a sphere: points farther off its tangent plane belong to another surface.
+inline constexpr double out_of_plane = 0.2;
+inline constexpr double explained_by_noise = 1.25;  // largest PlaneFit::misfit
+// Limits of a plane beyond the range of its points: in units of the range's width, and as a factor.
 inline constexpr double beyond_range = 0.5, most_beyond = 2.0;
-inline constexpr double little_left = 0.05;  // a residual of this part of the mean light is accepted, whatever the noise
-// A point is doubtful if it lies off the plane of so many others by this part of their light, and by so many standard errors of itself and
-// of them.
+inline constexpr double little_left = 0.05;  // a residual of this share of the mean light is accepted, whatever the noise
+// A point is doubtful if it deviates from the plane of at least least_others points by this share of their light, and by this many
+// standard errors of itself and the residuals.
 inline constexpr double seen_off = gather_rays.error, errors_off = 2.5;
 inline constexpr std::size_t least_others = 6;
 
-// A plane through the light of the points in a sphere.
+// A plane fitted to the light of the points in a sphere.
 struct PlaneFit {
-  Color light{0.0}, by_u{0.0}, by_v{0.0};  // at the middle, and its changes by one radius
+  Color light{0.0}, by_u{0.0}, by_v{0.0};  // at the centre, and the changes over one radius
   Color mean{0.0}, least{0.0}, most{0.0};  // of its points
-  double misfit = 0.0;                     // squared residuals of the fit, over those that the noise of the points explains
-  double rest = 0.0;                       // mean squared residual, over the square of the mean light
+  double misfit = 0.0;                     // squared residuals of the fit, relative to those expected from the noise of the points
+  double rest = 0.0;                       // mean squared residual, relative to the squared mean light
 };
 
 [[nodiscard]] HALFLIGHT_INLINE PlaneFit fit_plane(const GatheredPoint& point, double sphere, std::span<const GatheredPoint* const> near) {
-  // Sums of weights times (1, u, v) (1, u, v)' and times the light, with u, v in radii.
+  // Sums of weight * (1, u, v) (1, u, v)' and of weight * light, with u, v in radii.
   double w = 0.0, u1 = 0.0, v1 = 0.0, uu = 0.0, uv = 0.0, vv = 0.0;
   Color e{0.0}, eu{0.0}, ev{0.0};
   const auto each = [&](const auto& use) {
@@ -58,7 +59,7 @@ struct PlaneFit {
     w += own, u1 += own * u, v1 += own * v, uu += own * u * u, uv += own * u * v, vv += own * v * v;
     e += own * other.gathered, eu += own * u * other.gathered, ev += own * v * other.gathered;
   });
-  // About the weighted mean; what holds the slopes down where points are few or in line is small beside the sphere.
+  // Relative to the weighted mean. `hold` regularizes the slopes if points are few or collinear; it is small compared with the sphere.
   const double mu = u1 / w, mv = v1 / w;
   const Color mean = e / w;
   const double hold = 0.001 * w;
@@ -126,7 +127,7 @@ HALFLIGHT_INLINE bool is_doubtful(const GatheredPoint& gathered, std::span<const
   }
   if (others.size() < detail::least_others) { return false; }
   const detail::PlaneFit plane = detail::fit_plane(point, point.widest, others);
-  // What the plane leaves over of the others, by its median: a stain among them must not hide this one.
+  // The residuals of the other points, by their median, so that another stain among them does not hide this one.
   std::vector<double> left;
   for (const GatheredPoint* other : others) {
     const glm::dvec3 d = (other->position - point.position) / point.widest;
@@ -135,7 +136,7 @@ HALFLIGHT_INLINE bool is_doubtful(const GatheredPoint& gathered, std::span<const
   }
   const auto middle = left.begin() + static_cast<std::ptrdiff_t>(left.size() / 2);
   std::nth_element(left.begin(), middle, left.end());
-  constexpr double of_median = 1.4826;  // a standard deviation, where residues are normal
+  constexpr double of_median = 1.4826;  // standard deviation over median, for normal residuals
   const double off = own - (plane.light.x + plane.light.y + plane.light.z), mean = plane.mean.x + plane.mean.y + plane.mean.z;
   const double noise = point.variance + std::pow(of_median * *middle, 2.0);
   return std::abs(off) > detail::seen_off * mean && off * off > detail::errors_off * detail::errors_off * noise;

@@ -26,7 +26,7 @@ namespace radiosity {
 
 namespace detail {
 
-// Hash of the cell of a grid with this width that holds a point. Cells with the same hash share their lists, which costs time alone.
+// Hash of the cell that contains the point, in a grid with this cell width. Cells with equal hashes share a list, which costs only time.
 [[nodiscard]] HALFLIGHT_INLINE std::uint64_t cell_key(int grid, const glm::dvec3& point, double width) {
   std::uint64_t key = static_cast<std::uint64_t>(grid);
   for (int k = 0; k < 3; ++k) { key = scramble(key ^ static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(point[k] / width)))); }
@@ -47,7 +47,8 @@ void IrradianceCache::each_near(const glm::dvec3& position, const Visit& visit) 
 HALFLIGHT_INLINE void IrradianceCache::add(const GatheredPoint& point) {
   const auto index = static_cast<std::uint32_t>(points_.size());
   points_.push_back(point);
-  const int grid = std::ilogb(point.widest) + 2;  // cells of two to four radii, so that a sphere lies in two of them in each direction
+  // Cells of two to four radii, so that a sphere overlaps at most two cells in each direction.
+  const int grid = std::ilogb(point.widest) + 2;
   const double width = std::ldexp(1.0, grid);
   if (const auto at = std::lower_bound(grids_.begin(), grids_.end(), grid); at == grids_.end() || *at != grid) { grids_.insert(at, grid); }
   std::vector<std::uint64_t> keys;
@@ -87,14 +88,14 @@ HALFLIGHT_INLINE GatheredPoint IrradianceCache::gather(const Wanted& wanted) con
 
 HALFLIGHT_INLINE bool IrradianceCache::extend(std::span<const Wanted> wanted, const Control& control) {
   if (wanted.empty()) { return true; }
-  // Places that follow each other are near each other: first every so many-th of them, then those between.
+  // Consecutive places are near each other, so they are visited at decreasing strides.
   std::vector<std::uint32_t> order, chosen;
   for (std::size_t stride = std::bit_floor(wanted.size()); stride > 0; stride /= 2) {
     for (std::size_t i = 0; i < wanted.size(); i += stride) {
       if (stride == std::bit_floor(wanted.size()) || i / stride % 2 == 1) { order.push_back(static_cast<std::uint32_t>(i)); }
     }
   }
-  constexpr std::size_t batch = 256;  // of points that are gathered at the same time, and do not know of each other
+  constexpr std::size_t batch = 256;  // points that are gathered in parallel, without knowing of each other
   std::vector<char> open(4 * batch);
   std::vector<GatheredPoint> found;
   const std::size_t before = points_.size();

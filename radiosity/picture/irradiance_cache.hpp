@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Indirect light anywhere on the surfaces of a scene from points that lie apart (gathered_point.hpp): close together in corners and at
-// contacts, far apart on open walls. Points are looked for in the cells of grids, one for each power of two of the spheres' radii.
+// Indirect light anywhere on the surfaces of a scene, interpolated between sparse points (gathered_point.hpp): dense in corners and at
+// contacts, sparse on open walls. Points are stored in the cells of grids, one grid for each power of two of the spheres' radii.
 //
-// It grows with the places that are asked for; what it says then depends on these and their order alone, not on the number of threads.
+// The cache grows with the requested places; its values depend on these and their order alone, not on the number of threads.
 
 #include <cstddef>
 #include <cstdint>
@@ -29,12 +29,12 @@ class IrradianceCache {
 
   struct Wanted {
     FinalGather::Place place;
-    double least_radius = 0.0, most_radius = 0.0;  // of the sphere of a point that is made for it; in the frame
+    double least_radius = 0.0, most_radius = 0.0;  // limits of the radius of a point made for it; in the frame
   };
-  // Gathers so many more points that one is near each of these places. False when cancelled.
+  // Gathers more points until there is one near each of these places. False when cancelled.
   [[nodiscard]] bool extend(std::span<const Wanted> wanted, const Control& control);
 
-  // Near a place for which it was extended. W/m2.
+  // Irradiance near a place for which the cache was extended, W/m2.
   [[nodiscard]] std::optional<Color> at(const FinalGather::Place& place) const;
 
   [[nodiscard]] std::size_t size() const { return points_.size(); }
@@ -44,7 +44,7 @@ class IrradianceCache {
   [[nodiscard]] GatheredPoint gather(const Wanted& wanted) const;
   void add(const GatheredPoint& point);
   void fit_all();
-  // Calls visit(index) for the points that may say something about a place, and for some others.
+  // Calls visit(index) for the points whose spheres may contain the position, and possibly for others.
   template <class Visit>
   void each_near(const glm::dvec3& position, const Visit& visit) const;
 

@@ -60,7 +60,7 @@ HALFLIGHT_INLINE Lookup::Lookup(const Scene& scene, const Mesh& mesh, const Fram
       boxes.push_back(region(triangle, object, inputs[i].sheet));
       if (object.flat()) { corners.push_back(chord(triangle).position); }
     }
-    sheets_[i].tree = raycast::Bvh(boxes, 8.0);  // Newton's method takes as long as several boxes
+    sheets_[i].tree = raycast::Bvh(boxes, 8.0);  // Newton's method costs as much as testing several boxes
     sheets_[i].plane = PlaneGrid(corners);
   }
 }
@@ -90,12 +90,13 @@ HALFLIGHT_INLINE raycast::Box Lookup::region(const Triangle& triangle, const ray
 
 namespace detail {
 
-// Of the light at a triangle's corners, in the brightest: where they differ by less, the light is taken to be even.
+// Relative difference of the corners' light, in the brightest, below which the light is considered constant.
 inline constexpr double told_apart = 0.05;
-// A surface that rises above a plane by so much of its width darkens so much of that around it, unknown to a triangle so many times wider.
+// A surface that rises above a plane by the share least_rise of its width darkens the plane within `darkened` times its width; a triangle
+// far_wider times as wide does not resolve that.
 inline constexpr double least_rise = 0.05, darkened = 0.25, far_wider = 4.0;
 
-// How far a box reaches to the front of the plane through p.
+// The height of the box above the plane through p.
 [[nodiscard]] HALFLIGHT_INLINE double rise(const raycast::Box& box, const glm::dvec3& p, const glm::dvec3& normal) {
   const glm::dvec3 half = 0.5 * box.size();
   return glm::dot(box.centre() - p, normal) + glm::dot(half, glm::abs(normal));
@@ -104,7 +105,7 @@ inline constexpr double least_rise = 0.05, darkened = 0.25, far_wider = 4.0;
 }  // namespace detail
 
 HALFLIGHT_INLINE void Lookup::find_coarse() {
-  std::vector<std::uint32_t> others;  // sheets, with how wide each is, where it is, and how far it may darken others
+  std::vector<std::uint32_t> others;  // sheets; with widths, positions, and the boxes within which they may darken others
   std::vector<double> widths;
   std::vector<raycast::Box> bounds, reached;
   for (std::uint32_t i = 0; i < sheets_.size(); ++i) {
@@ -141,7 +142,7 @@ HALFLIGHT_INLINE void Lookup::find_coarse() {
         const bool darkens =
             others[k] != own && meets(reached[k]) && detail::rise(bounds[k], corner[0], n) > detail::least_rise * widths[k];
         if (darkens && detail::far_wider * widths[k] < longest) { within = std::max(within, 2.0 * widths[k]); }
-        return false;  // to look at all
+        return false;  // false: visit all
       };
       if (within == 0.0) { raycast::any_within(tree, meets, look); }
       triangle.coarse_within = static_cast<float>(within);
@@ -163,8 +164,8 @@ HALFLIGHT_INLINE std::optional<Lookup::Found> Lookup::find(std::uint32_t object,
     const Triangle& triangle = on.triangles[held->triangle];
     return Found{blend(triangle, held->weight), held->triangle, true, triangle.coarse_within};
   }
-  // Of several triangles, takes one that faces the same way, and of these the nearest: the far side of a thin solid, and what lies beyond a
-  // crease, belongs to the same sheet. On a common wall of two prisms both triangles give the same colour.
+  // If several triangles contain the point, prefers one that faces the same way, and among those the nearest: the far side of a thin
+  // solid and the area beyond a crease belong to the same sheet. On a common wall of two prisms both triangles give the same colour.
   const auto faces = [&](const ChordTriangle& flat) {
     const auto& [a, b, c] = flat.position;
     return glm::dot(glm::cross(b - a, c - a), place.normal) > 0.0;

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The solved radiosity as a function on the true objects: what a ray sees, the mesh never being looked at for shape. A ray finds the
-// point of an object; the colours come from the triangle of the object's mesh that stands for this point (chord.hpp), interpolated
-// from its corners as the mesh itself is shaded (paper 4.5). So silhouettes, rims and the curves where objects meet are exact, while
-// the colours are those of the reconstruction: exact at its vertices, continuous over every sheet, and on plane sheets the same.
+// The solved radiosity as a function on the true objects: rays hit the objects themselves, not the mesh. The colour at a hit is taken
+// from the corresponding triangle of the object's mesh (chord.hpp), interpolated between its corners as in mesh shading (paper 4.5). So
+// silhouettes, rims and intersection curves are exact, while the colours are those of the reconstruction: exact at its vertices,
+// continuous over every sheet, and on plane sheets identical.
 //
-// On a plane sheet, a grid knows which triangle holds a point (plane_grid.hpp); elsewhere a tree over the triangles does. A box of the tree
-// holds the part of the true surface that its triangle stands for: it is grown by twice the distance between the two, measured at the
+// On a plane sheet, the triangle is found with a grid (plane_grid.hpp), on others with a tree over the triangles. A box of the tree
+// contains the part of the true surface that its triangle represents: it is grown by twice the distance between the two, measured at the
 // middle of the triangle and of its edges, where a paraboloid through the corners is farthest away. A point in no prism (beyond the chord
 // of a cap's rim) takes the nearest point of the mesh.
 
@@ -38,16 +38,16 @@ namespace radiosity {
 
 class Lookup {
  public:
-  // `mesh` is a solution of the scene, in the scene's coordinates; `frame` that of the solution. Both inputs may go after this.
+  // `mesh`: a solution of the scene, in scene coordinates; `frame`: that of the solution. Both may be destroyed after this.
   Lookup(const Scene& scene, const Mesh& mesh, const Frame& frame);
 
-  // The radiosity at a point of a sheet of an object, in the coordinates of the frame. Nothing where the sheet has no mesh because it
-  // is buried. Cost: a walk down a tree, or a few steps of a grid.
+  // The radiosity at a point of a sheet, in coordinates of the frame. Nothing if the sheet is buried and has no mesh. Cost: one descent
+  // of a tree, or a few steps in a grid.
   [[nodiscard]] std::optional<Color> at(std::uint32_t object, std::uint32_t sheet, const glm::dvec3& point) const {
     return at(object, sheet, {point, objects_.object(object).project(sheet, point).normal});
   }
 
-  // At a place of the sheet of which the normal is known.
+  // At a place on the sheet whose normal is known.
   [[nodiscard]] std::optional<Color> at(std::uint32_t object, std::uint32_t sheet, const raycast::SurfacePoint& place) const {
     const std::optional<Found> found = find(object, sheet, place);
     return found ? std::optional(found->radiosity) : std::nullopt;
@@ -55,9 +55,9 @@ class Lookup {
 
   struct Found {
     Color radiosity{0.0};
-    std::uint32_t triangle = 0;  // of the input surface
-    bool within = false;         // it stands for the place; else it is the nearest
-    double coarse_within = 0.0;  // seen from nearer than this, the triangle is too wide for its light; 0: from nowhere
+    std::uint32_t triangle = 0;  // its index within the input surface
+    bool within = false;         // does it correspond to the place? Otherwise it is only the nearest one
+    double coarse_within = 0.0;  // seen from nearer than this, the triangle is too wide to represent its light; 0: never
   };
   [[nodiscard]] std::optional<Found> find(std::uint32_t object, std::uint32_t sheet, const raycast::SurfacePoint& place) const;
 
@@ -74,16 +74,16 @@ class Lookup {
   [[nodiscard]] const Frame& frame() const { return frame_; }
   [[nodiscard]] std::uint32_t surface(std::uint32_t object, std::uint32_t sheet) const { return first_sheet_[object] + sheet; }
 
-  // What is seen from `eye` in `direction` (of any length), in the scene's coordinates: the first surface that shows its front and is
-  // not buried under another object. Nothing where the ray meets none. Backs do not hide what lies behind them, so one looks into a
-  // room from outside, and out of a solid.
+  // The radiosity seen from `eye` in `direction` (of any length), in scene coordinates: that of the first surface which shows its front
+  // and is not buried under another object. Nothing if there is none. Back faces do not hide what lies behind them, so that one can look
+  // into a room from outside, and out of a solid.
   [[nodiscard]] std::optional<Color> seen(const glm::dvec3& eye, const glm::dvec3& direction) const;
 
   struct Seen {
-    std::uint32_t surface;  // number of the input surface
+    std::uint32_t surface;  // index of the input surface
     Color radiosity{0.0};
   };
-  // As above in up to sixteen directions: faster when they are close to each other.
+  // As above for up to sixteen directions; faster if they are close to each other.
   [[nodiscard]] std::array<std::optional<Seen>, 16> seen16(const glm::dvec3& eye, std::span<const glm::dvec3> directions) const;
 
  private:
@@ -102,23 +102,23 @@ class Lookup {
     raycast::Bvh tree;  // over the triangles
   };
 
-  // Where a ray has met something: nothing at a back, and where another object covers the place.
+  // The radiosity at a hit; nothing at a back face, or if another object covers the place.
   [[nodiscard]] std::optional<Color> shade(const raycast::Hit& hit, const raycast::SurfacePoint& place) const {
     if (!hit.front || objects_.covered(place.position, place.normal, hit.object)) { return std::nullopt; }
     return at(hit.object, hit.sheet, place);
   }
   [[nodiscard]] ChordTriangle chord(const Triangle& triangle) const;
   [[nodiscard]] raycast::Box region(const Triangle& triangle, const raycast::PlacedObject& object, std::uint32_t sheet) const;
-  // Finds for all triangles from how near they are too wide: from as near as they are wide, where their corners differ; from twice the
-  // width of a far smaller surface that rises from them: it darkens a part of them, of which their corners do not know.
+  // Sets Triangle::coarse_within: the width of the triangle, if its corners differ; or twice the width of a much smaller surface that
+  // rises from it, because such a surface darkens a part of the triangle of which the corners know nothing.
   void find_coarse();
   [[nodiscard]] Color blend(const Triangle& triangle, const glm::dvec3& weight) const;
 
   Frame frame_;
   raycast::Scene objects_;
-  std::vector<std::uint32_t> first_sheet_;  // one an object
-  std::vector<Sheet> sheets_;               // one an input surface
-  std::vector<Corner> corners_;             // those of the mesh, in the frame
+  std::vector<std::uint32_t> first_sheet_;  // by object
+  std::vector<Sheet> sheets_;               // by input surface
+  std::vector<Corner> corners_;             // of the mesh, in the frame
   double rounding_ = 0.0;
 };
 

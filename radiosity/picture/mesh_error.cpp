@@ -35,10 +35,10 @@ HALFLIGHT_INLINE MeshErrorMeter::MeshErrorMeter(const Scene& scene, const FinalG
   struct Triangle {
     std::uint32_t surface;
     glm::dvec3 a{0.0}, b{0.0}, c{0.0};  // in the frame
-    double share;                       // about, of the picture by area
-    double area;                        // times the share
-    double light;                       // square of what is reflected
-    double until;                       // part of the points that fall on it or on one before
+    double share;                       // estimated share of the picture per area
+    double area;                        // times `share`
+    double light;                       // squared reflected light
+    double until;                       // cumulative share of the points
   };
   const std::vector<InputSurface> inputs = surfaces(scene);
   std::vector<Triangle> triangles;
@@ -54,7 +54,7 @@ HALFLIGHT_INLINE MeshErrorMeter::MeshErrorMeter(const Scene& scene, const FinalG
       Triangle t{face.surface, corner(0), corner(k), corner(k + 1), 1.0, 0.0, glm::dot(reflected, reflected), 0.0};
       const glm::dvec3 doubled = glm::cross(t.b - t.a, t.c - t.a);
       t.area = 0.5 * glm::length(doubled);
-      if (control.viewpoint && t.area > 0.0) {  // the part of the picture that it takes at most, as its middle sees it
+      if (control.viewpoint && t.area > 0.0) {  // upper estimate of its share of the picture
         t.share = 0.0;
         for (const glm::dvec3& p : {t.a, t.b, t.c, (t.a + t.b + t.c) / 3.0}) {
           t.share = std::max(t.share, control.viewpoint->share(light.frame().to_scene(p), doubled / (2.0 * t.area)));
@@ -72,7 +72,7 @@ HALFLIGHT_INLINE MeshErrorMeter::MeshErrorMeter(const Scene& scene, const FinalG
   for (Triangle& t : triangles) { before = t.until = before + t.area * density(t); }
 
   std::vector<Sample> samples(points);
-  constexpr std::size_t batch = 512;  // between two looks at the cancel flag
+  constexpr std::size_t batch = 512;  // points between two checks of the cancel flag
   for (std::size_t first = 0; first < points; first += batch) {
     if (control.cancelled()) { return; }
     const auto measure = [&](std::size_t offset) {
@@ -96,7 +96,7 @@ HALFLIGHT_INLINE MeshErrorMeter::MeshErrorMeter(const Scene& scene, const FinalG
       LitRegion region = light.lit_region(std::span(&sample.place, 1));
       const Color direct = region.irradiance(sample.place.point.position, sample.place.point.normal);
       for (std::uint64_t half = 0; half < 2; ++half) {
-        constexpr std::uint32_t rays = 512;  // of each half: their noise takes no more from the estimate than the choice of points
+        constexpr std::uint32_t rays = 512;  // of each half; enough that their noise is smaller than that of the choice of points
         const auto indirect = light.indirect(sample.place, rays, rays, 0.0, random.bits());
         sample.light[half] = material.emission + material.reflectance * (direct + indirect.irradiance);
       }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// How far the colours of a mesh are from the light that is gathered for a picture (final_gather.hpp): relative L2 over the exposed
-// surfaces, from random points at which that light is known by two independent sets of rays (error_estimate.hpp). Any mesh of the scene is
-// held against the same points, so that two can be compared.
+// The error of a mesh's colours relative to the light gathered for a picture (final_gather.hpp): relative L2 over the exposed surfaces,
+// from random points at which that light is computed with two independent sets of rays (error_estimate.hpp). Different meshes of a scene
+// are compared with the same points.
 
 #include <cstdint>
 #include <optional>
@@ -20,14 +20,14 @@ namespace radiosity {
 
 class MeshErrorMeter {
  public:
-  // Gathers light at `points` points of the mesh, in the scene's coordinates; half of them are spread by area, half by the square of the
-  // reflected light. `scene` and `light` must outlive this. When cancelled there are no points.
+  // Gathers light at `points` points of the mesh (in scene coordinates), half of them distributed by area, half by the squared reflected
+  // light. `scene` and `light` must outlive this. When cancelled, there are no points.
   MeshErrorMeter(const Scene& scene, const FinalGather& light, const Mesh& mesh, std::uint64_t points, std::uint64_t seed, unsigned threads,
-                 const Control& control);  // `control.viewpoint`: errors count by the picture
+                 const Control& control);  // if control.viewpoint is set, errors are weighted by the picture
 
-  // Of another mesh of the same surfaces. Nothing without points, or when they see no light.
+  // The error of another mesh of the same surfaces. Nothing without points, or if they see no light.
   [[nodiscard]] std::optional<ErrorEstimate> measure(const Mesh& mesh) const;
-  // The square of the reflected light, integrated over the surfaces, in the frame, or over the picture.
+  // The squared reflected light, integrated over the surfaces (in the frame) or over the picture.
   [[nodiscard]] double square() const;
 
  private:
@@ -39,7 +39,7 @@ class MeshErrorMeter {
   const Scene* scene_;
   const FinalGather* light_;
   std::vector<Sample> samples_;
-  double area_ = 0.0;  // of all triangles, or what they take of the picture
+  double area_ = 0.0;  // of all triangles; or their area in the picture
 };
 
 }  // namespace radiosity

@@ -42,11 +42,12 @@ namespace radiosity {
 
 namespace detail {
 
-inline constexpr double inside_of_corner = 1e-3;            // part of the way from a corner to the middle of its face
-inline constexpr double same_colour = 0.01;                 // relative: what differs by less at one place is one colour
-inline constexpr double smooth_normals = 0.999;             // cosine, of one colour
-inline constexpr double least_ball = 0.5, most_ball = 1.5;  // of indirect light, by the side of the face that asks for it
-inline constexpr double least_cell = 1e-8;                  // of the area of all surfaces: smaller faces are not split
+// Distance from a corner at which its light is taken, relative to that to the face's middle.
+inline constexpr double inside_of_corner = 1e-3;
+inline constexpr double same_colour = 0.01;                 // relative difference below which colours at one vertex are merged
+inline constexpr double smooth_normals = 0.999;             // least cosine between normals of merged colours
+inline constexpr double least_ball = 0.5, most_ball = 1.5;  // limits of the radius of an indirect point, relative to the side of the face
+inline constexpr double least_cell = 1e-8;                  // relative to the total area: smaller faces are not split
 
 }  // namespace detail
 
@@ -105,7 +106,7 @@ HALFLIGHT_INLINE MeshRefiner::Places MeshRefiner::places_of(const Face& face) co
   for (std::size_t k = 0; k < corners.size(); ++k) {
     if (const auto place = exposed_at(glm::mix(corners[k], middle, detail::inside_of_corner))) { places.corners.emplace_back(k, *place); }
   }
-  // Some four points, as many on each of the triangles of the fan that the face is drawn as.
+  // At least four points, equally many on each triangle of the fan as which the face is drawn.
   const std::size_t triangles = corners.size() - 2, on_each = std::max<std::size_t>(2, 4 / triangles);
   Random random{face.surface, face.face.index, static_cast<std::uint64_t>(surface.brep.data(face.face).level)};
   for (std::size_t k = 1; k <= triangles; ++k) {
@@ -140,7 +141,7 @@ HALFLIGHT_INLINE MeshRefiner::Cell MeshRefiner::light_of(const Face& face, const
   };
   const SurfaceBRep& brep = surfaces_[face.surface].brep;
   const auto corners = brep::corners(brep, face.face);
-  Color mean{0.0};  // of the corners that are not buried; buried corners get it
+  Color mean{0.0};  // mean of the corners that are not buried; buried corners get it
   for (const auto& [number, place] : places.corners) {
     cell.corners.emplace_back(brep.vertex(corners[number]), light_at(place));
     mean += cell.corners.back().second / static_cast<double>(places.corners.size());
@@ -175,7 +176,7 @@ HALFLIGHT_INLINE bool MeshRefiner::gather() {
     for (const Test& test : of.tests) { want(test.place); }
   }
   if (!indirect_.extend(wanted, *control_)) { return false; }
-  constexpr std::size_t batch = 4096;  // between two looks at the cancel flag
+  constexpr std::size_t batch = 4096;  // faces between two checks of the cancel flag
   for (std::size_t first = 0; first < fresh_.size(); first += batch) {
     if (control_->cancelled()) { return false; }
     const auto light = [&](std::size_t k) {
@@ -229,7 +230,7 @@ HALFLIGHT_INLINE std::size_t MeshRefiner::split(double wanted, std::uint64_t mos
   return count;
 }
 
-// Gives the half-edges of a surface their colours: at each vertex the mean of those of its faces that agree.
+// Sets the colours of a surface's half-edges: at each vertex, the mean over those faces whose colours agree.
 HALFLIGHT_INLINE void MeshRefiner::unite_colours(Surface& surface, const std::vector<Cell>& cells,
                                                  const std::vector<brep::FaceId>& origin) const {
   SurfaceBRep& brep = surface.brep;
@@ -268,13 +269,14 @@ HALFLIGHT_INLINE void MeshRefiner::unite_colours(Surface& surface, const std::ve
       if (group == groups.end()) { group = groups.insert(group, {face.sheet, normal, *color, Color{0.0}, 0.0}); }
       const auto index = static_cast<std::size_t>(group - groups.begin());
       members.emplace_back(h, index);
-      if (std::find(seen.begin(), seen.end(), std::pair(from, index)) != seen.end()) { continue; }  // another part of the same face
+      // Another part of the same original face.
+      if (std::find(seen.begin(), seen.end(), std::pair(from, index)) != seen.end()) { continue; }
       seen.emplace_back(from, index);
       group->sum += *color;
       group->count += 1.0;
     }
     for (const auto& [h, group] : members) { brep.data(h).radiosity = groups[group].sum / groups[group].count; }
-    for (const brep::HalfedgeId h : bare) {  // a T-vertex of its face takes what its neighbours have there
+    for (const brep::HalfedgeId h : bare) {  // T-vertices of their faces take the mean of the matching colours at the vertex
       Color sum{0.0};
       double count = 0.0;
       for (const Group& group : groups) {
@@ -306,7 +308,7 @@ HALFLIGHT_INLINE void MeshRefiner::unite_colours(Surface& surface, const std::ve
 
 HALFLIGHT_INLINE Mesh MeshRefiner::mesh() const {
   std::vector<Surface> surfaces = surfaces_;
-  std::vector<std::vector<brep::FaceId>> origin(surfaces.size());  // of each face that from which it was cut
+  std::vector<std::vector<brep::FaceId>> origin(surfaces.size());  // by face: the face from which it was cut
   for (std::size_t o = 0; o < surfaces.size(); ++o) {
     SurfaceBRep& brep = surfaces[o].brep;
     std::vector<brep::FaceId> faces;

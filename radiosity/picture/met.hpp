@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The place on the true objects of what a ray has met among the meshes that stand in for slow ones (direct_light.hpp).
+// Converts a hit on a mesh that stands in for a slow object (direct_light.hpp) to the place on the true object.
 
 #include <cstdint>
 
@@ -19,7 +19,7 @@ struct Met {
   std::uint32_t object = 0, sheet = 0;
 };
 
-// `objects`: the true ones; `hit`: of a ray among direct.objects().
+// `objects`: the true objects; `hit`: of `ray` with direct.objects().
 [[nodiscard]] Met met(const raycast::Scene& objects, const DirectLight& direct, const raycast::Hit& hit, const raycast::Segment& ray);
 
 }  // namespace radiosity

@@ -36,9 +36,9 @@ namespace radiosity {
 
 struct NearLight::Paths {
   std::array<Met, paths_at_once> end;
-  std::array<Color, paths_at_once> carried;          // share of the light of the end that comes back to the place
-  std::array<Color, paths_at_once> light;            // that has come so far
-  std::uint32_t lanes = (1u << paths_at_once) - 1u;  // that have not ended
+  std::array<Color, paths_at_once> carried;          // share of the light at the end that returns to the place
+  std::array<Color, paths_at_once> light;            // light so far
+  std::uint32_t lanes = (1u << paths_at_once) - 1u;  // paths that have not ended
 
   template <class Body>
   void each(const Body& body) const {
@@ -48,7 +48,7 @@ struct NearLight::Paths {
 
 namespace detail {
 
-// The light that a lamp would send to a place from its middle: by this one is chosen.
+// The light that a lamp would send to a place from its centre; lamps are chosen in proportion to it.
 [[nodiscard]] HALFLIGHT_INLINE double strength(const DirectLight::Lamp& lamp, const raycast::SurfacePoint& at) {
   const glm::dvec3 d = lamp.centre - at.position;
   if (!(glm::dot(d, at.normal) > -lamp.radius)) { return 0.0; }
@@ -61,8 +61,8 @@ struct ChosenLamp {
   double probability = 0.0;
 };
 
-// How a lamp is chosen at a place: mostly by the photons that have landed there, else by its strength. The strength alone would choose
-// lamps behind walls, the photons alone might miss one that shines past an edge.
+// The probabilities with which lamps are chosen at a place: mostly by the photons that landed there, otherwise by strength. Strength
+// alone would choose lamps behind walls; photons alone might miss a lamp that shines past an edge.
 class LampChoice {
  public:
   LampChoice(const DirectLight& direct, const PhotonGrid& photons, const raycast::SurfacePoint& at)
@@ -76,7 +76,7 @@ class LampChoice {
     return {&lamp, (1.0 - by_photons_.trust) * by_strength + by_photons_.trust * by_photons_.share_of(index)};
   }
 
-  // By a number in (0, 1).
+  // Chooses a lamp by a number in (0, 1).
   [[nodiscard]] ChosenLamp choose(double number) const {
     const double trust = by_photons_.trust;
     if (number < trust) {
@@ -99,10 +99,11 @@ class LampChoice {
   std::span<const DirectLight::Lamp> lamps_;
   const raycast::SurfacePoint* at_;
   PhotonGrid::Around by_photons_;
-  double strength_ = 0.0;  // of all
+  double strength_ = 0.0;  // sum over all lamps
 };
 
-// The probability that an even ray from a place ends here on the lamp, in that of this point being chosen, all points of the lamp alike.
+// Density with which a uniform ray from `place` hits this point of the lamp, relative to that of choosing the point (uniformly on the
+// lamp).
 [[nodiscard]] HALFLIGHT_INLINE double ray_to_chosen(const ChosenLamp& chosen, const raycast::SurfacePoint& place, const glm::dvec3& end,
                                                     const glm::dvec3& normal) {
   const glm::dvec3 d = end - place.position;
@@ -111,7 +112,7 @@ class LampChoice {
   return chosen.lamp->area * here * there / (std::numbers::pi * square * square) / chosen.probability;
 }
 
-// What counts of the light of a lamp that an even ray from a place has met; the rest is that of chosen points (balance heuristic).
+// Weight of a lamp's light that a uniform ray has hit, by the balance heuristic; the rest comes from chosen points.
 [[nodiscard]] HALFLIGHT_INLINE double share_of_ray(const LampChoice& choice, const DirectLight::Lamp& lamp,
                                                    const raycast::SurfacePoint& place, const raycast::SurfacePoint& end) {
   const ChosenLamp chosen = choice.of(lamp);
@@ -126,7 +127,7 @@ HALFLIGHT_INLINE void NearLight::light_by_lamps(Paths& paths, std::span<PathNumb
   const double off_surface = direct_->off_surface();
   raycast::Segments16 segments;
   std::array<Color, paths_at_once> arriving{};
-  // Samples of a lamp that stand in a row are even over it, and so are the lamps that paths choose.
+  // Consecutive samples of a lamp are stratified over it, and the paths choose lamps by stratified numbers.
   const double row = numbers[0].uniform(), turn = numbers[0].uniform();
   std::array<detail::ChosenLamp, paths_at_once> choices;
   paths.each([&](unsigned k) {
@@ -138,7 +139,7 @@ HALFLIGHT_INLINE void NearLight::light_by_lamps(Paths& paths, std::span<PathNumb
     const detail::ChosenLamp& chosen = choices[k];
     if (chosen.lamp == nullptr) { return; }
     const std::vector<LampSample>& samples = chosen.lamp->samples;
-    // From any sample of a row on, and around: few paths that choose a lamp must not all come to the first ones.
+    // Starts at a random sample of a row and wraps around, so that few paths with the same lamp do not all use the first samples.
     const auto any = static_cast<std::size_t>(row * static_cast<double>(samples.size()));
     const auto before = std::count_if(choices.begin(), choices.begin() + k, [&](const auto& c) { return c.lamp == chosen.lamp; });
     const std::size_t in_row = (any + static_cast<std::size_t>(before)) % paths_at_once;
@@ -240,7 +241,8 @@ HALFLIGHT_INLINE NearLight::Sum NearLight::light(std::span<const Seen> seen, std
   double all = 0.0;
   for (const Seen& place : seen) { all += channels(place.light); }
   if (!(all > 0.0)) { return {}; }
-  // Half of the paths go where the mesh shows light, half to any place: one that the mesh shows dark may be bright.
+  // Half of the probability follows the light shown by the mesh; the other half is uniform, because a place that the mesh shows
+  // dark may be bright.
   const auto probability = [&](const Seen& place) { return 0.5 * channels(place.light) / all + 0.5 / static_cast<double>(seen.size()); };
   const Sobol4 first{3, key}, second{4, key};
   const double start = Random{5, key}.uniform();
@@ -249,8 +251,8 @@ HALFLIGHT_INLINE NearLight::Sum NearLight::light(std::span<const Seen> seen, std
   for (std::uint32_t done = 0; done < paths; done += paths_at_once) {
     Paths next;
     std::vector<PathNumbers> numbers;
-    std::array<double, paths_at_once> chosen{};  // the probability of the place of each path
-    // Places at even steps of their summed probability.
+    std::array<double, paths_at_once> chosen{};  // by path: the probability of its place
+    // Systematic sampling: places at even steps of the cumulative probability.
     const double offset = std::fmod(start + done / paths_at_once * std::numbers::phi, 1.0);
     std::size_t place = 0;
     double until = probability(seen[0]);

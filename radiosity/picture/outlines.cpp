@@ -33,14 +33,14 @@ namespace radiosity {
 
 namespace detail {
 
-// A face as the camera sees it.
+// A face as seen by the camera.
 struct SeenFace {
   std::uint32_t sheet = brep::no_sheet;
-  bool front = false;  // turned to the eye
+  bool front = false;  // does it face the eye?
   glm::dvec3 middle{0.0};
 };
 
-// An edge that is part of an outline: its ends, the face in front, and the other one.
+// An outline edge: its ends, the face that faces the eye, and the other one.
 struct OutlineEdge {
   std::uint32_t surface = 0;
   brep::FaceId front, other;
@@ -75,7 +75,7 @@ HALFLIGHT_INLINE void add_outline_edges(const Surface& surface, std::uint32_t nu
   }
 }
 
-// Looks at outlines from one eye; lengths across the line of sight are those at the distance of the point that is looked at.
+// Evaluates outlines for one eye. Lengths perpendicular to the line of sight are measured at the distance of the evaluated point.
 class OutlineView {
  public:
   OutlineView(const FinalGather& light, const Viewpoint& from) : light_{&light}, from_{&from}, eye_{light.eye(from.eye)} {}
@@ -83,7 +83,7 @@ class OutlineView {
   [[nodiscard]] const glm::dvec3& eye() const { return eye_.position; }
 
   [[nodiscard]] double error(const OutlineEdge& edge) const {
-    constexpr double gauss = 0.21132486540518712;  // two points of the edge: exact for a parabola
+    constexpr double gauss = 0.21132486540518712;  // two Gauss points on the edge: exact for a parabola
     return 0.5 * (error_at(edge, gauss) + error_at(edge, 1.0 - gauss));
   }
 
@@ -96,7 +96,7 @@ class OutlineView {
   FinalGather::Eye eye_;
 };
 
-// The square of the difference of what is seen through two points; 0 when neither shows the object of the edge.
+// The squared difference of what is seen through two points; 0 if neither shows the object of the edge.
 HALFLIGHT_INLINE double OutlineView::contrast(const OutlineEdge& edge, const glm::dvec3& inside, const glm::dvec3& outside) const {
   const std::array<glm::dvec3, 2> directions{inside - eye(), outside - eye()};
   const auto places = light_->seen16(eye_, directions, true);
@@ -118,7 +118,7 @@ HALFLIGHT_INLINE double OutlineView::error_at(const OutlineEdge& edge, double at
   if (!(distance > 0.0)) { return 0.0; }
   const glm::dvec3 sight = (m - eye()) / distance;
   const double share = from_->share(light_->frame().to_scene(m), -sight);
-  glm::dvec3 out = glm::cross(sight, edge.b - edge.a);  // as long as the edge is seen
+  glm::dvec3 out = glm::cross(sight, edge.b - edge.a);  // its length is the apparent length of the edge
   const double length = glm::length(out);
   if (!(share > 0.0) || !(length > 0.0)) { return 0.0; }
   out *= (glm::dot(out, edge.near.middle - m) > 0.0 ? -1.0 : 1.0) / length;
@@ -128,8 +128,8 @@ HALFLIGHT_INLINE double OutlineView::error_at(const OutlineEdge& edge, double at
   };
   double width = 0.0;
   if (edge.far.sheet == edge.near.sheet) {
-    width = std::max(width, beyond(object.vertex(edge.near.sheet, m)));  // the edge of a blade
-    constexpr int steps = 4;                                             // to the middle of either face
+    width = std::max(width, beyond(object.vertex(edge.near.sheet, m)));  // for the edge of a blade
+    constexpr int steps = 4;                                             // towards the centre of either face
     const glm::dvec3 middle = 0.5 * (edge.a + edge.b);
     for (int k = -steps; k <= steps; ++k) {
       const glm::dvec3 across = (k < 0 ? edge.far.middle : edge.near.middle) - middle;
@@ -138,7 +138,7 @@ HALFLIGHT_INLINE double OutlineView::error_at(const OutlineEdge& edge, double at
   } else {
     width = beyond(on_sheets(object, std::array{edge.near.sheet, edge.far.sheet}, m));
   }
-  constexpr double beside = 0.02;  // of the edge: where a strip has no width to speak of
+  constexpr double beside = 0.02;  // relative to the edge: least offset, for strips of almost no width
   const double step = std::max(std::abs(width), beside * length);
   const double light = contrast(edge, m + (width - step) * out, m + (width + step) * out);
   const double pixel = light_->frame().scale * std::sqrt(from_->pixel / share);

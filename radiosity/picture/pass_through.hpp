@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Up to sixteen rays that go on past what is not shown: the backs of surfaces and what is buried.
+// Traces up to sixteen rays through surfaces that are not shown: back faces and buried parts.
 
 #include <bit>
 #include <cstdint>
@@ -15,11 +15,11 @@
 
 namespace radiosity {
 
-// Calls meet(i, hit, ray, passed) for what ray i meets next, after it has passed as many surfaces: the point from which the ray goes on, in
-// the same direction, or nothing when it ends there.
+// Calls meet(i, hit, ray, passed) for each hit of ray i; `passed`: number of hits before. meet() returns the point from which the ray
+// continues in the same direction, or nothing if it ends there.
 template <class Meet>
 void pass_through(const raycast::Scene& scene, const raycast::Segments16& from, const Meet& meet) {
-  constexpr int most = 10'000;  // surfaces passed: only backs and buried ones are, so this ends what rounding might not
+  constexpr int most = 10'000;  // limit of the hits passed: only backs and buried parts are, but rounding might repeat one endlessly
   raycast::Segments16 rays = from;
   for (int passed = 0; passed < most && rays.lanes != 0; ++passed) {
     const raycast::Hits16 hits = scene.closest16(rays);

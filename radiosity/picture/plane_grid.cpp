@@ -21,21 +21,21 @@ namespace radiosity {
 
 namespace detail {
 
-inline constexpr std::uint32_t is_grid = 0xffffffff;  // in place of the count of a cell's triangles
-inline constexpr std::size_t few_triangles = 4;       // are not divided
+inline constexpr std::uint32_t is_grid = 0xffffffff;  // marks a cell that contains a grid, in place of its count
+inline constexpr std::size_t few_triangles = 4;       // cells with so few are not divided
 inline constexpr double most_cells = 4096.0;          // of one grid
-inline constexpr int most_grids = 8;                  // within each other: where many triangles share a corner, no grid parts them
-inline constexpr std::size_t most_listed = 64;        // triangles of a cell; of more none is looked at
-inline constexpr std::size_t most_shares = 64;        // of a triangle in the cells of all grids, on average
-inline constexpr std::size_t looks_a_share = 8;       // at cells, that may turn out not to meet the triangle
-inline constexpr double weight_slip = 1e-9;           // a point is in a triangle up to a weight of minus this
-inline constexpr double cell_slip = 1e-5;             // of its width: a triangle that near belongs to a cell
-inline constexpr double least_width = 1e-7;  // of what is divided, of the coordinates: their rounding is far below the slip of cells
+inline constexpr int most_grids = 8;                  // depth limit: no grid separates many triangles that share a corner
+inline constexpr std::size_t most_listed = 64;        // triangles of a cell; larger cells are not searched
+inline constexpr std::size_t most_shares = 64;        // entries per triangle in the cells of all grids, on average
+inline constexpr std::size_t looks_a_share = 8;       // tests of a triangle with a cell, per entry
+inline constexpr double weight_slip = 1e-9;           // a point is in a triangle if no weight is below minus this
+inline constexpr double cell_slip = 1e-5;             // relative to its width: a triangle within this distance belongs to a cell
+inline constexpr double least_width = 1e-7;  // of a divided cell, relative to the coordinates: their rounding error is far below cell_slip
 
 }  // namespace detail
 
 HALFLIGHT_INLINE PlaneGrid::PlaneGrid(std::span<const Corners> triangles) {
-  glm::dvec3 normal{0.0};  // of whichever is largest, as it is not lost in rounding
+  glm::dvec3 normal{0.0};  // normal of the largest triangle, which is least affected by rounding
   for (const Corners& t : triangles) {
     const glm::dvec3 own = glm::cross(t[1] - t[0], t[2] - t[0]);
     if (glm::dot(own, own) > glm::dot(normal, normal)) { normal = own; }
@@ -50,7 +50,7 @@ HALFLIGHT_INLINE PlaneGrid::PlaneGrid(std::span<const Corners> triangles) {
   for (std::uint32_t i = 0; i < triangles.size(); ++i) {
     const glm::dvec2 a = flattened(triangles[i][0]), b = flattened(triangles[i][1]), c = flattened(triangles[i][2]);
     const glm::dvec2 ab = b - a, ac = c - a;
-    const double area = ab.x * ac.y - ab.y * ac.x;  // twice, signed
+    const double area = ab.x * ac.y - ab.y * ac.x;  // twice the signed area
     const glm::dvec3 second{ac.y / area, -ac.x / area, (a.y * ac.x - a.x * ac.y) / area};
     const glm::dvec3 third{-ab.y / area, ab.x / area, (a.x * ab.y - a.y * ab.x) / area};
     if (!std::isfinite(second.x + second.y + second.z + third.x + third.y + third.z)) { continue; }
@@ -66,7 +66,7 @@ HALFLIGHT_INLINE PlaneGrid::PlaneGrid(std::span<const Corners> triangles) {
   root_ = divide(whole, all, bounds, 0);
 }
 
-// Of a triangle whose bounds meet a cell: it is apart from the cell where one of its weights is negative in the whole of it.
+// For a triangle whose bounds overlap the cell: they are disjoint if one of its weights is negative in the whole cell.
 HALFLIGHT_INLINE bool PlaneGrid::meets(std::uint32_t triangle, const Box& cell) const {
   const Weights& w = weights_[triangle];
   const glm::dvec2 half = 0.5 * (cell.hi - cell.lo);

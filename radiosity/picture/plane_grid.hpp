@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Which of the triangles of a plane holds a point: a grid over the plane, and within its cells of many triangles further grids. So a point
-// is found in a few steps however many triangles there are, and however unequal in size.
+// Finds the triangle of a plane that contains a point: a grid over the plane, with further grids within cells of many triangles. So a
+// point is found in a few steps, however many triangles there are and however unequal they are.
 //
-// The coordinate along which the plane's normal is longest is left out: barycentric coordinates of the rest are the same.
+// Works in two coordinates: the one along which the plane's normal is longest is dropped, which does not change barycentric coordinates.
 
 #include <algorithm>
 #include <array>
@@ -24,19 +24,19 @@ class PlaneGrid {
   using Corners = std::array<glm::dvec3, 3>;
 
   PlaneGrid() = default;
-  // Triangles of one plane. Those without an area hold no point.
+  // Triangles of one plane. Those without area contain no point.
   explicit PlaneGrid(std::span<const Corners> triangles);
 
   struct Found {
     std::uint32_t triangle = 0;
     glm::dvec3 weight{0.0};  // barycentric
   };
-  // The first triangle that holds a point of the plane, its edges included. Nothing where there is none, or where too many lie close
-  // together (slivers around one corner) for a grid to part them: then another search must tell.
+  // The first triangle that contains a point of the plane, edges included. Nothing if there is none, or if a cell has too many triangles
+  // that no grid can separate (slivers around a common corner); then another search must decide.
   [[nodiscard]] std::optional<Found> find(const glm::dvec3& point) const;
 
  private:
-  // Barycentric coordinates of the second and the third corner as functions of a point: g . (u, v) + g.z.
+  // Barycentric coordinates of the second and third corner as linear functions of the point: g . (u, v) + g.z.
   struct Weights {
     glm::dvec3 second{0.0}, third{0.0};
     [[nodiscard]] glm::dvec3 at(const glm::dvec2& p) const {
@@ -47,15 +47,15 @@ class PlaneGrid {
   struct Box {
     glm::dvec2 lo{0.0}, hi{0.0};
   };
-  // A cell is a list of triangles, or one more grid.
+  // A cell is a list of triangles, or contains another grid.
   struct Cell {
-    std::uint32_t first = 0, count = 0;  // in items_; for a grid its number, and is_grid
+    std::uint32_t first = 0, count = 0;  // range in items_; or number of the grid and is_grid
   };
   struct Grid {
     glm::dvec2 lo{0.0}, cells_per_length{0.0};
     std::array<std::uint32_t, 2> size{};
     std::uint32_t first_cell = 0;
-    // The cell that holds a point, or the nearest.
+    // The cell that contains a point, or the nearest cell.
     [[nodiscard]] std::array<std::uint32_t, 2> cell_of(const glm::dvec2& p) const {
       const auto along = [&](int k) {
         const double at = (p[k] - lo[k]) * cells_per_length[k];
@@ -67,19 +67,19 @@ class PlaneGrid {
 
   [[nodiscard]] glm::dvec2 flattened(const glm::dvec3& p) const { return {p[axes_[0]], p[axes_[1]]}; }
   [[nodiscard]] static Grid grid_over(const Box& box, double cells);
-  // A cell, and a little of what is around it.
+  // The box of a cell, slightly enlarged.
   [[nodiscard]] static Box box_of(const Grid& grid, std::uint32_t x, std::uint32_t y);
   [[nodiscard]] bool meets(std::uint32_t triangle, const Box& cell) const;
-  // The triangles of each cell; nothing where that would take more than so many looks at cells, or shares of triangles in them.
+  // The triangles of each cell; nothing if that would need too many tests, or more than `most_shares` entries.
   using InCells = std::vector<std::vector<std::uint32_t>>;
   [[nodiscard]] std::optional<InCells> sort_into(const Grid& grid, const std::vector<std::uint32_t>& triangles,
                                                  const std::vector<Box>& bounds, std::size_t most_shares) const;
-  // Makes the cell of these triangles, which all reach into the box.
+  // Makes the cell for these triangles, all of which overlap the box.
   [[nodiscard]] Cell divide(const Box& box, const std::vector<std::uint32_t>& triangles, const std::vector<Box>& bounds, int depth);
 
   std::array<int, 2> axes_{0, 1};
   double least_width_ = 0.0;
-  std::size_t shares_left_ = 0;  // of triangles in cells, beyond one each
+  std::size_t shares_left_ = 0;  // entries of triangles in cells that are still allowed, beyond one each
   std::vector<Weights> weights_;
   std::vector<Grid> grids_;
   std::vector<Cell> cells_;

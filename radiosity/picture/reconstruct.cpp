@@ -52,7 +52,7 @@ HALFLIGHT_INLINE std::uint64_t eliminate_t_vertices(std::vector<Surface>& surfac
 
 namespace detail {
 
-// Angle of the face of h at the origin of h.
+// The angle of the face of h at the origin of h.
 [[nodiscard]] HALFLIGHT_INLINE double corner_angle(const SurfaceBRep& brep, brep::HalfedgeId h) {
   const glm::dvec3& p = brep.data(brep.vertex(h)).position;
   const glm::dvec3 a = brep.data(brep.target(h)).position - p;
@@ -76,22 +76,22 @@ HALFLIGHT_INLINE void set_normals(const raycast::PlacedObject& object, SurfaceBR
   }
 }
 
-// The weight of one face's light in a corner of another (reconstruct.hpp): the 64th power of the cosine.
+// The weight of one face's light in a corner of another, by their normals (reconstruct.hpp): the 64th power of the cosine.
 [[nodiscard]] inline double alike(const glm::dvec3& a, const glm::dvec3& b) {
   double weight = std::max(0.0, glm::dot(a, b));
   for (int power = 1; power < 64; power *= 2) { weight *= weight; }
   return weight;
 }
 
-// The weight of the light of a leaf in a corner of one that is much larger (reconstruct.hpp). Areas, of the other one what is exposed: a
-// sliver is small, however long, and so is what shows beside a thing that stands on it.
+// The weight of a leaf's light in a corner of a much larger leaf (reconstruct.hpp). `own`: area; `other`: exposed area, because a sliver
+// counts as small however long it is, and so does the visible part beside an object that stands on the leaf.
 [[nodiscard]] inline double beside(double own, double other) {
   constexpr double much_larger = 64.0;
   return std::min(1.0, much_larger * other / own);
 }
 
-// Of a face that was cut: does a wall stand between these two leaves, near their common corner v, or does something hang close before one of
-// them alone? Asked just above them.
+// For faces that were cut: does a wall stand between these two leaves near their common corner v, or does something hang close in front
+// of only one of them? Tested just above the leaves.
 [[nodiscard]] HALFLIGHT_INLINE bool parted(const LeafLight& light, std::uint32_t a, std::uint32_t b, const glm::dvec3& v) {
   constexpr double along = 0.01, above = 1e-3;
   const Node &from = light.hierarchy[a], &to = light.hierarchy[b];
@@ -110,8 +110,9 @@ HALFLIGHT_INLINE void colour_face(SurfaceBRep& brep, brep::FaceId f, std::uint32
     return;
   }
   const std::uint32_t root = input_face(light.hierarchy, own), part = brep.data(f).part;
-  const bool walls = light.objects != nullptr && light.exposure.area[own] > 0.0;  // what is buried shows the light around it
-  Color face_sum{0.0};                                                            // over the corners that have a colour
+  // False for buried faces, which show the light around them.
+  const bool walls = light.objects != nullptr && light.exposure.area[own] > 0.0;
+  Color face_sum{0.0};  // sum over the corners that have a colour
   int coloured = 0;
   std::vector<brep::HalfedgeId> bare;
   for (const brep::HalfedgeId e : brep::halfedges_of(brep, f)) {
@@ -154,7 +155,7 @@ template <class Exposed>
   return false;
 }
 
-// Planes go on beyond the outlines of objects: does the object end at the point?
+// Does the object end at this point of one of its planes? Planes extend beyond the outlines of objects.
 [[nodiscard]] HALFLIGHT_INLINE bool ends_at(const raycast::PlacedObject& object, const raycast::SurfacePoint& at, double touch) {
   const raycast::Segment line{at.position, at.normal};
   raycast::Spans spans;
@@ -162,7 +163,7 @@ template <class Exposed>
   return std::any_of(spans.begin(), spans.end(), [&](const raycast::Span& span) { return std::abs(span.out.t) <= touch; });
 }
 
-// Does a corner of the border of a sheet lie within a convex polygon, beside its edges by more than `touch`?
+// Does a corner of the border of a sheet lie within a convex polygon, more than `touch` inside its edges?
 [[nodiscard]] HALFLIGHT_INLINE bool border_within(const SurfaceBRep& brep, std::uint32_t sheet, Polygon polygon, double touch) {
   const glm::dvec3 up = brep::normal(polygon);
   const auto is_within = [&](const glm::dvec3& p) {
@@ -182,11 +183,10 @@ template <class Exposed>
   return false;
 }
 
-// Does a face of a flat object lie on another flat object, all of it: on one that faces the same way, or on a solid that stands on it?
-// There is then nothing of it to be seen: not even slivers, as of a face that a curved object stands on, or at the rim of a disk, whose
-// mesh lies within it. Its corners, a little drawn in, and places between them must lie on the other one, no corner of whose border may lie
-// within the face. `from`: the first object that counts among
-// those that face the same way.
+// Does a face of a flat object lie completely on another flat object that covers it: one that faces the same way, or a solid that stands
+// on it? Then nothing of it may be visible, not even slivers as at the foot of a curved object or at the rim of a disk, whose mesh lies
+// within the disk. The corners, drawn in slightly, and points between them must lie on the other object, and no corner of that object's
+// border may lie within the face. `from`: first object that is considered among those that face the same way.
 [[nodiscard]] HALFLIGHT_INLINE bool lies_under(const Surface& own, brep::FaceId f, const std::vector<Surface>& surfaces,
                                                std::size_t from = 0) {
   if (!own.object->flat()) { return false; }
@@ -230,7 +230,7 @@ template <class Exposed>
   });
 }
 
-// Adds a face whose half-edges have their colours. `position`: which of the mesh each vertex has, by its index.
+// Adds a face whose half-edges have colours. `position`: by vertex index, the index of its position in the mesh.
 template <class Exposed>
 void add_face(const std::vector<Surface>& surfaces, const Surface& surface, brep::FaceId f, const std::vector<std::uint32_t>& position,
               const LeafLight& light, const Exposed& exposed, Mesh& mesh) {
@@ -238,9 +238,9 @@ void add_face(const std::vector<Surface>& surfaces, const Surface& surface, brep
   const std::uint32_t node = brep.data(f).node;
   const bool buried = !exposed(f);
   if (buried && (!touches_exposed(brep, f, exposed) || lies_under(surface, f, surfaces))) { return; }
-  // T-vertex elimination may cut a leaf where that goes under a later object, which covers it.
+  // T-vertex elimination may cut off a part of a leaf that lies under a later object, which covers it.
   if (light.exposure.partly_buried[node] && lies_under(surface, f, surfaces, light.hierarchy[node].object + 1)) { return; }
-  // Four corners at most; T-vertex elimination leaves no others, the rest would be cut as a fan. Separate polygons keep their
+  // At most four corners: T-vertex elimination leaves no others, and the rest would be cut as a fan. Separate polygons keep their
   // T-vertices, and a leaf is shaded from its own corners.
   std::vector<brep::HalfedgeId> loop;
   if (surface.topology == Topology::separate) {
@@ -248,8 +248,8 @@ void add_face(const std::vector<Surface>& surfaces, const Surface& surface, brep
   } else {
     for (const brep::HalfedgeId h : brep::halfedges_of(brep, f)) { loop.push_back(h); }
   }
-  // At the edge of a blade T-vertex elimination may leave a sliver between the edge and a chord of it, which stands on the surface or
-  // shows the wrong side.
+  // At the edge of a blade T-vertex elimination may leave a sliver between the edge and its chord, which is perpendicular to the surface
+  // or shows its back.
   const auto turned_away = [&](std::initializer_list<std::size_t> corners) {
     Polygon contour;
     for (const std::size_t k : corners) { contour.push_back(brep.data(brep.vertex(loop[k])).position); }
@@ -286,7 +286,7 @@ HALFLIGHT_INLINE Mesh read_mesh(std::vector<Surface>& surfaces, const LeafLight&
     SurfaceBRep& brep = surfaces[o].brep;
     detail::set_normals(*surfaces[o].object, brep);
     colour(o);
-    std::vector<std::uint32_t> position;  // of each vertex, by its index
+    std::vector<std::uint32_t> position;  // by vertex index
     for (const brep::VertexId v : brep::vertices(brep)) {
       if (v.index >= position.size()) { position.resize(v.index + 1, 0); }
       position[v.index] = static_cast<std::uint32_t>(mesh.positions.size());

@@ -40,13 +40,13 @@ HALFLIGHT_INLINE void SpotPhotons::sort(std::size_t first, std::size_t last) {
 }
 
 HALFLIGHT_INLINE SpotPhotons::Found SpotPhotons::around(const glm::dvec3& position, const glm::dvec3* normal) const {
-  constexpr double same_way = 0.7;                        // cosine
+  constexpr double same_way = 0.7;                        // least cosine between the normals
   std::vector<std::pair<double, std::uint32_t>> nearest;  // a heap: squared distance, photon
   nearest.reserve(most_found + 1);
   double square = reach_ * reach_;
   struct Range {
     std::size_t first, last;
-    double off;  // squared distance of the plane that parts it from the point
+    double off;  // squared distance from the point to the splitting plane
   };
   std::array<Range, 128> open;
   std::size_t count = 0;
@@ -69,7 +69,7 @@ HALFLIGHT_INLINE SpotPhotons::Found SpotPhotons::around(const glm::dvec3& positi
     }
     const Range below{range.first, middle, along < 0.0 ? along * along : range.off};
     const Range above{middle + 1, range.last, along > 0.0 ? along * along : range.off};
-    open[count++] = along > 0.0 ? above : below;  // the nearer one is looked at first
+    open[count++] = along > 0.0 ? above : below;  // pushed last, visited first: the nearer half
     open[count++] = along > 0.0 ? below : above;
   }
   Found found;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Where the light of bright spots arrives: photons that they send out, each with the group of spots that it comes from (photon map; Jensen
-// 1996). Of what a point may see of a spot something else often hides most: a slit lets through the light of a thin strip of what is behind
-// it. So the photons that land around a point tell which groups it sees and how much light they send there, and rays are aimed by that
-// ("Importance driven path tracing using the photon map", Jensen 1995). They guide alone: no light is taken from them.
+// Where the light of bright spots arrives: photons sent out by the spots, each with its group of spots (photon map; Jensen 1996). Most of
+// a spot may be hidden from a point: a slit lets through only a thin strip of light. So the photons that landed around a point tell which
+// groups it sees and how much light these send there, and rays are aimed accordingly ("Importance driven path tracing using the photon
+// map", Jensen 1995). Photons only guide sampling and carry no light into the result.
 
 #include <cstddef>
 #include <cstdint>
@@ -24,13 +24,13 @@ class SpotPhotons {
   };
 
   SpotPhotons() = default;
-  // `reach`: photons that landed farther away than this are not asked.
+  // `reach`: photons farther away than this from a query are ignored.
   SpotPhotons(std::vector<Photon> photons, double reach);
 
   [[nodiscard]] bool empty() const { return photons_.empty(); }
 
-  // The photons around a point that landed on what faces about the same way (any way, without a normal): the nearest ones, as many as
-  // `most_found` at most, and the radius of the disk on which they landed.
+  // The nearest photons around a point, at most `most_found`, that landed on surfaces of about the same orientation (of any, if `normal`
+  // is null); and the radius of the disk that contains them.
   static constexpr std::size_t most_found = 48;
   struct Found {
     std::vector<std::uint32_t> photons;
@@ -40,11 +40,11 @@ class SpotPhotons {
   [[nodiscard]] const Photon& operator[](std::uint32_t i) const { return photons_[i]; }
 
  private:
-  // Sorts photons so that each range has its median in the middle, along the axis on which it is widest (kd-tree; Bentley 1975).
+  // Sorts the photons so that each range has its median in the middle, along the axis on which it is widest (kd-tree; Bentley 1975).
   void sort(std::size_t first, std::size_t last);
 
   std::vector<Photon> photons_;
-  std::vector<std::uint8_t> axis_;  // on which each photon parts those of its range
+  std::vector<std::uint8_t> axis_;  // split axis of each photon's range
   double reach_ = 0.0;
 };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// What a camera sees of the surfaces, for errors that count by the picture and not by area.
+// The visible share of the picture, for errors weighted by a picture instead of by area.
 
 #include <functional>
 #include <optional>
@@ -15,7 +15,7 @@
 
 namespace radiosity {
 
-// How much of the picture a unit of area at this place takes; 0 where something else is seen. Without a viewpoint all places count alike.
+// The share of the picture that a unit of area at this place takes; 0 if it is hidden. Without a viewpoint all places have share 1.
 [[nodiscard]] inline double seen_share(const std::optional<Viewpoint>& from, const FinalGather& light, const FinalGather::Place& place) {
   if (!from) { return 1.0; }
   const Frame& frame = light.frame();
@@ -25,7 +25,7 @@ namespace radiosity {
   const FinalGather::Eye eye{(from->eye - frame.centre) * frame.scale, false};
   const glm::dvec3 direction = place.point.position - eye.position;
   const auto seen = light.seen16(eye, std::span(&direction, 1), false)[0];
-  constexpr double near = 1e-3;  // of the distance: meshes stand in for objects that are slow to meet
+  constexpr double near = 1e-3;  // relative to the distance: meshes may stand in for slow objects
   const bool same =
       seen && seen->surface == place.surface && glm::length(seen->point.position - place.point.position) <= near * glm::length(direction);
   return same ? share : 0.0;

@@ -31,7 +31,7 @@ namespace detail {
 struct RayPart {
   std::uint32_t p = no_node, q = no_node;  // p < q
   float exchange = 0.0f;
-  glm::vec3 at_p{0.0f}, at_q{0.0f};  // from their centroids
+  glm::vec3 at_p{0.0f}, at_q{0.0f};  // end points, relative to the nodes' centroids
 };
 
 // Finds the nodes for which rays are counted.
@@ -39,7 +39,7 @@ class Pooling {
  public:
   Pooling(const DiscreteScene& scene, const StoredRays& rays) : hierarchy_{&scene.hierarchy}, nearness_(scene.hierarchy.size(), 0.0) {
     const Hierarchy& hierarchy = *hierarchy_;
-    std::vector<double> area(hierarchy.size(), 0.0);  // of the nodes below that cast rays
+    std::vector<double> area(hierarchy.size(), 0.0);  // of the casting nodes below
     for (std::size_t i = hierarchy.size(); i-- > 0;) {
       if (rays.count(i) > 0) {
         area[i] = scene.exposure.area[i];
@@ -65,10 +65,10 @@ class Pooling {
 
  private:
   const Hierarchy* hierarchy_;
-  std::vector<double> nearness_;  // 1 / harmonic mean distance of what is seen from each node
+  std::vector<double> nearness_;  // by node: 1 / harmonic mean distance of what it sees
 };
 
-// All rays between nodes that cast some.
+// The parts of all rays between nodes that cast.
 [[nodiscard]] HALFLIGHT_INLINE BigArray<RayPart> parts_of(const DiscreteScene& scene, const StoredRays& rays, RayLinks& result) {
   const Hierarchy& hierarchy = scene.hierarchy;
   const Pooling pooling{scene, rays};
@@ -80,16 +80,16 @@ class Pooling {
       const std::uint32_t to = ray.to == no_node ? no_node : result.caster[ray.to];
       if (to == no_node || !(result.density[to] > 0.0)) { continue; }
       ++carried;
-      if (to == i) { continue; }  // a hollow patch sees itself: what it sees of others stands for that as well
+      if (to == i) { continue; }  // a hollow patch that sees itself: its rays to others represent this light, too
       const auto length = static_cast<double>(ray.length);
       std::uint32_t p = pooling.node(i, length);
       std::uint32_t q = pooling.node(to, length);
-      if (p == q) {  // of a hollow patch that sees itself; then its parts do
+      if (p == q) {  // a hollow patch that sees itself: use its casting nodes
         p = i;
         q = to;
       }
       const auto exchange = static_cast<float>(1.0 / (result.density[i] + result.density[to]));
-      if (!(exchange > 0.0f)) { continue; }  // too little for a float
+      if (!(exchange > 0.0f)) { continue; }  // too small for a float
       const glm::vec3 at_p{glm::dvec3{ray.start} + hierarchy[i].centre - scene.exposure.centroid[p]};
       const glm::vec3 at_q{glm::dvec3{ray.end} + hierarchy[ray.to].centre - scene.exposure.centroid[q]};
       parts.push_back(p < q ? RayPart{p, q, exchange, at_p, at_q} : RayPart{q, p, exchange, at_q, at_p});
@@ -99,7 +99,7 @@ class Pooling {
   return parts;
 }
 
-// Of each node: the rays that start on it, by its exposed area.
+// By node: the number of rays that start on it, per exposed area.
 [[nodiscard]] HALFLIGHT_INLINE std::vector<double> densities(const DiscreteScene& scene, const StoredRays& rays) {
   const Hierarchy& hierarchy = scene.hierarchy;
   const std::vector<double>& area = scene.exposure.area;
@@ -112,7 +112,7 @@ class Pooling {
   return density;
 }
 
-// The link of parts that are all of the same pair.
+// The link of parts that all belong to the same pair.
 [[nodiscard]] HALFLIGHT_INLINE Link pooled_link(const DiscreteScene& scene, const std::vector<std::uint32_t>& caster,
                                                 const BigArray<RayPart>& parts, std::span<const std::uint32_t> of) {
   const std::uint32_t p = parts[of.front()].p;
@@ -127,7 +127,8 @@ class Pooling {
     moment_q += exchange * glm::dvec3{parts[k].at_q};
   }
   Link link{p, q, static_cast<float>(sum), {}, {}};
-  const auto gradient = [&](std::uint32_t i, const glm::dvec3& moment) {  // none within a node that casts: its rays are few for one
+  // No gradient within a casting node, which has too few rays for one.
+  const auto gradient = [&](std::uint32_t i, const glm::dvec3& moment) {
     return caster[i] == no_node ? EndShape::of_patch(glm::vec3{scene.patches[i].inverse_inertia * (moment / sum)}) : EndShape{};
   };
   link.shape_p = gradient(p, moment_p);
@@ -145,8 +146,9 @@ HALFLIGHT_INLINE std::vector<std::uint32_t> ray_counts(const DiscreteScene& scen
     all += area[caster.node];
     weighted += caster.weight * std::sqrt(area[caster.node]);
   }
-  constexpr double least = 32.0;  // fewer tell too little of what is near a node
-  // Where the camera looks slivers may weigh hundreds of times what others do. All together get no more than as many even ones would.
+  constexpr double least = 32.0;  // fewer say too little about what is near a node
+  // With a camera, slivers in view may have hundreds of times the weight of others. The total is limited to the number that equal weights
+  // would give.
   constexpr double few = 0x1p22;
   const double wished = mean * weighted * weighted / all, even = mean * static_cast<double>(casters.size());
   if (scene.control.viewpoint && wished > std::max(few, even)) { mean *= std::max(few, even) / wished; }
@@ -174,7 +176,7 @@ HALFLIGHT_INLINE RayLinks make_ray_links(const DiscreteScene& scene, const Store
     if (result.caster[i] == no_node && hierarchy[i].parent != no_node) { result.caster[i] = result.caster[hierarchy[i].parent]; }
   }
   const BigArray<detail::RayPart> parts = detail::parts_of(scene, rays, result);
-  // Parts by p, then by q.
+  // Sort the parts by p, then by q.
   std::vector<std::size_t> first(hierarchy.size() + 1, 0);
   for (const detail::RayPart& part : parts) { ++first[part.p + 1]; }
   for (std::size_t i = 0; i < hierarchy.size(); ++i) { first[i + 1] += first[i]; }
@@ -195,7 +197,7 @@ HALFLIGHT_INLINE RayLinks make_ray_links(const DiscreteScene& scene, const Store
 
 namespace detail {
 
-// Of each node: the variance of the row sum that the links at it and above bring, where each ray is there by chance alone (Poisson).
+// By node: the variance of the row sum by the links of the node and its ancestors, if each ray is an independent event (Poisson).
 [[nodiscard]] HALFLIGHT_INLINE std::vector<double> row_variances(const DiscreteScene& scene, const Links& made,
                                                                  const std::vector<double>& density) {
   const std::vector<double>& area = scene.exposure.area;
@@ -211,7 +213,7 @@ namespace detail {
   return variance;
 }
 
-// A number that becomes better known by each independent estimate of it.
+// A number that independent estimates make more precise.
 struct RowEstimate {
   double value = 0.0, variance = 0.0;
 
@@ -235,7 +237,7 @@ HALFLIGHT_INLINE std::vector<double> RayLinks::row_sums(const DiscreteScene& sce
   struct Means {
     double computed = 0.0, of_lamps = 0.0, left = 0.0;
   };
-  std::vector<Means> means(computed.size());  // over the leaves of each node that casts
+  std::vector<Means> means(computed.size());  // over the leaves of each casting node
   double all = 0.0, square = 0.0;
   for (std::size_t i = 0; i < computed.size(); ++i) {
     if (!scene.hierarchy[i].leaf()) { continue; }

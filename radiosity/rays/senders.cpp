@@ -19,11 +19,11 @@ namespace radiosity {
 
 namespace detail {
 
-// Of each node: the standard deviation of a brightness over its exposed leaves.
+// By node: the standard deviation of the brightness over its exposed leaves.
 [[nodiscard]] HALFLIGHT_INLINE std::vector<double> deviations(const DiscreteScene& scene, const std::vector<double>& brightness) {
   const Hierarchy& hierarchy = scene.hierarchy;
   struct Moments {
-    double area = 0.0, first = 0.0, second = 0.0;  // integrals of 1, of the brightness and of its square
+    double area = 0.0, first = 0.0, second = 0.0;  // integrals of 1, of the brightness, and of its square
   };
   std::vector<Moments> moments(hierarchy.size());
   std::vector<double> deviation(hierarchy.size(), 0.0);
@@ -43,7 +43,7 @@ namespace detail {
   return deviation;
 }
 
-// Of each node: the caster at or above it, or no_node.
+// By node: the caster at or above it, or no_node.
 [[nodiscard]] HALFLIGHT_INLINE std::vector<std::uint32_t> casters_above(const Hierarchy& hierarchy, const std::vector<Caster>& casters) {
   std::vector<std::uint32_t> above(hierarchy.size(), no_node);
   for (const Caster& caster : casters) { above[caster.node] = caster.node; }
@@ -53,8 +53,8 @@ namespace detail {
   return above;
 }
 
-// Of each caster, the squared L2 error of what the views receive of it from near by, relative to the area of all: each of them sees light
-// that differs from the mean by some deviation.
+// By caster: the squared L2 error of what the views receive from it at a short distance, relative to the total area. Each view is assumed
+// to see light that differs from the mean by one standard deviation.
 [[nodiscard]] HALFLIGHT_INLINE std::vector<double> errors_sent(const Hierarchy& hierarchy, const std::vector<std::uint32_t>& caster,
                                                                const std::vector<CasterView>& views, const std::vector<double>& deviation) {
   std::vector<double> squares(hierarchy.size(), 0.0);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// What bright leaves send, by rays that leave them. Sixteen rays from a large wall miss a small bright spot before it; rays from the spot
-// meet the wall.
+// The light that bright leaves send, sampled by rays that start on them. Sixteen rays from a large wall miss a small bright spot in front
+// of it; rays from the spot hit the wall.
 //
-// Both kinds of rays count together by the balance heuristic (Veach and Guibas 1995): a ray between points of i and j, from either end,
-// stands for an exchange of 1 / (d_i + d_j), with d the number of rays that leave a node for each unit of its area.
+// Both kinds of rays are combined by the balance heuristic (Veach and Guibas 1995): a ray between points of i and j, from either end,
+// represents an exchange of 1 / (d_i + d_j), with d the number of rays per area that start on a node.
 
 #include <cstdint>
 #include <vector>
@@ -21,18 +21,18 @@ namespace radiosity {
 class ShotLight {
  public:
   struct Ray {
-    std::uint32_t from = no_node, on = no_node;  // the leaf that sends, when the ray was cast; the open node that is met
+    std::uint32_t from = no_node, on = no_node;  // the emitting leaf at the time of casting; the open node that was hit
     double length = 0.0;
   };
 
   // No rays.
   ShotLight() = default;
-  // Some 4096 rays, shared among the leaves by area times `brightness`, which is that of each node.
+  // Casts some 4096 rays, distributed over the leaves by area times `brightness` (by node).
   ShotLight(const DiscreteScene& scene, const LeafLocator& locator, const std::vector<double>& brightness);
 
-  // Rays that leave a node, by its area; of one that was made since, those of the leaf that it is a part of.
+  // Rays per area that start on a node; for a node made after casting, that of the leaf of which it is a part.
   [[nodiscard]] double density(const Hierarchy& hierarchy, std::uint32_t node) const;
-  // The rays that meet one of the nodes that are marked in `open`, or something below.
+  // The rays that hit one of the nodes marked in `open`, or a descendant.
   [[nodiscard]] std::vector<Ray> on(const Hierarchy& hierarchy, const LeafLocator& locator, const std::vector<bool>& open) const;
 
  private:
@@ -42,7 +42,7 @@ class ShotLight {
     raycast::SurfacePoint at;
   };
   std::vector<Landed> rays_;
-  std::vector<double> density_;  // of each node of then
+  std::vector<double> density_;  // of the nodes that existed at the time of casting
 };
 
 }  // namespace radiosity

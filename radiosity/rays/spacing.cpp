@@ -28,7 +28,7 @@ namespace radiosity {
 
 namespace detail {
 
-// Mean emission of the lamps in each cluster, in the order of the nodes; 0 for nodes that are no clusters.
+// By node: mean emission of the lamps in a cluster; 0 for nodes that are not clusters.
 [[nodiscard]] HALFLIGHT_INLINE std::vector<Color> emission_of_clusters(const DiscreteScene& scene) {
   const Hierarchy& hierarchy = scene.hierarchy;
   std::vector<Color> emission(hierarchy.size(), Color{0.0});
@@ -42,13 +42,13 @@ namespace detail {
   return emission;
 }
 
-// How bright each node looks but for links: the light that comes straight from the lamps and is reflected, and what the node emits itself
-// if it is no lamp; in its brightest channel. Lamps count as dark.
+// Brightness of each node without interreflection: the reflected direct light of the lamps, plus the node's own emission if it is no
+// lamp; in the brightest channel. Lamps count as dark.
 struct Brightness {
   std::vector<double> of;
-  // RMS over the exposed leaves of what they reflect of the lamps, and of all else that shines as if that were even.
+  // RMS over the exposed leaves of the reflected light of lamps, and of other emitters as if their light were constant over the scene.
   double reflected = 0.0;
-  double mean = 0.0;  // of the same
+  double mean = 0.0;  // mean of the same
 };
 [[nodiscard]] HALFLIGHT_INLINE Brightness brightness_without_lamps(const DiscreteScene& scene, const Links& of_lamps) {
   const Hierarchy& hierarchy = scene.hierarchy;
@@ -62,7 +62,7 @@ struct Brightness {
     shine(link.p, link.q, static_cast<double>(link.exchange));
     shine(link.q, link.p, static_cast<double>(link.exchange));
   }
-  Color glow{0.0};  // of all surfaces that are no lamps, in the mean
+  Color glow{0.0};  // mean over all surfaces that are no lamps
   double area = 0.0;
   const auto counts = [&](std::size_t i) { return hierarchy[i].leaf() && scene.exposure.area[i] > 0.0; };
   for (std::size_t i = 0; i < hierarchy.size(); ++i) {
@@ -89,7 +89,7 @@ struct Brightness {
   return brightness;
 }
 
-// Splits nodes for light that comes from everywhere.
+// Splits nodes for indirect light.
 class Spacing {
  public:
   Spacing(DiscreteScene& scene, const Links& of_lamps, Importance& importance, double tolerance, double min_area)
@@ -110,7 +110,7 @@ class Spacing {
     weight_.assign(scene.hierarchy.size(), 1.0);
   }
 
-  // Errors count by the picture from here, too: what is seen of a coarse spacing says how much. To be called first.
+  // Weights errors by the picture from now on, using what is seen of a coarse spacing. To be called first.
   void look_from(const Viewpoint& from, SpacingResult& result) {
     const std::vector<std::uint32_t> input_faces = open_;
     tolerance_ *= coarse;
@@ -130,7 +130,7 @@ class Spacing {
 
   [[nodiscard]] bool dark() const { return !(root_mean_square_ > 0.0); }
 
-  // One generation; false when no node is open.
+  // One generation; returns false when no node is open.
   [[nodiscard]] bool step(SpacingResult& result) {
     std::erase_if(open_, [&](std::uint32_t i) { return !(scene_.exposure.area[i] > 0.0); });
     if (open_.empty()) { return false; }
@@ -172,10 +172,10 @@ class Spacing {
   }
 
  private:
-  static constexpr double coarse = 2.0;  // how much more than the tolerance
+  static constexpr double coarse = 2.0;  // factor of the tolerance for the coarse spacing
   static constexpr std::uint32_t rays_each = std::tuple_size_v<decltype(CasterView::rays)>;
 
-  // So many rays from each open node.
+  // Casts rays_each rays from each open node.
   [[nodiscard]] StoredRays cast(SpacingResult& result) const {
     std::vector<std::uint32_t> counts(scene_.hierarchy.size(), 0);
     for (const std::uint32_t i : open_) { counts[i] = rays_each; }
@@ -185,8 +185,8 @@ class Spacing {
     return rays;
   }
 
-  // Sums over the shots that meet a node, of the squared brightness of where they come from, and of the brightness by the length of the
-  // shot, in the unit of one of its own rays.
+  // Sums over the shots that hit a node: of the squared brightness of their sources, and of brightness over length. The weight of one of
+  // the node's own rays is 1.
   struct Arrived {
     double square = 0.0, near = 0.0;
   };
@@ -206,13 +206,13 @@ class Spacing {
     return arrived;
   }
 
-  // What a node reflects of what it sees, relative to the scene: the mean over its rays, which says how much the light may vary over the
-  // node, and their RMS, which says how much they scatter. What is seen has reflected the light of lamps once; light that was reflected
-  // more often is more even, and stands as a quarter of all where everything is lit alike; where little is lit it is about as bright as
-  // that light in the mean.
+  // The light that a node reflects of what it sees, relative to the scene. mean: over its rays, for the variation of the light over the
+  // node; scatter: RMS over its rays, for their noise. What is seen has reflected the light of lamps once. Light reflected more often is
+  // more even: it is taken as a quarter of all where everything is lit alike; where little is lit, its mean is about as bright as that
+  // light.
   struct Weights {
     double mean = 0.0, scatter = 0.0;
-    double near = 0.0;  // what is seen along shots, by their length; the mean is without that
+    double near = 0.0;  // light seen along shots, weighted by 1 / length; not included in the mean
   };
   [[nodiscard]] Weights weights(std::uint32_t i, const StoredRays& rays, const Arrived& arrived) const {
     double sum = 0.0;
@@ -238,7 +238,7 @@ class Spacing {
     return result;
   }
 
-  // Opens the children of nodes, and casts from those leaves that the BRep refuses to split.
+  // Opens the children of the nodes; leaves that the BRep refuses to split become casters.
   void descend(const std::vector<std::uint32_t>& nodes, SpacingResult& result) {
     open_.clear();
     Hierarchy& hierarchy = scene_.hierarchy;
@@ -261,15 +261,15 @@ class Spacing {
   Importance& importance_;
   std::uint64_t links_;
   double tolerance_;
-  std::vector<double> brightness_;  // of each node
-  double root_mean_square_ = 0.0;   // of what is reflected, over the scene
-  std::vector<double> weight_;      // of each node: ViewImportance::weight
-  double gain_ = 1.5, rest_ = 0.5;  // weights()
+  std::vector<double> brightness_;  // by node
+  double root_mean_square_ = 0.0;   // of the reflected light, over the scene
+  std::vector<double> weight_;      // by node: ViewImportance::weight
+  double gain_ = 1.5, rest_ = 0.5;  // see weights()
   double evenness_ = 1.0;           // of the light: 1 unless little of the scene is lit
-  ShotLight shots_;                 // none where that is 1
+  ShotLight shots_;                 // empty if evenness_ is 1
   double area_ = 0.0, least_area_ = 0.0;
   std::vector<std::uint32_t> open_;
-  std::vector<CasterView> views_;  // of the casters
+  std::vector<CasterView> views_;  // by caster
 };
 
 }  // namespace detail
@@ -286,7 +286,7 @@ HALFLIGHT_INLINE SpacingResult space_casters(DiscreteScene& scene, Links& of_lam
   while (result.too_large == 0 && spacing.step(result)) {}
   spacing.split_as_senders(result);
   const auto split = [&](std::uint32_t i) { return was_leaf[i] && !scene.hierarchy[i].leaf(); };
-  for (Link& link : of_lamps) {  // the link of a cluster has gradients in any case
+  for (Link& link : of_lamps) {  // links of clusters have gradients already
     if (scene.hierarchy[link.p].is_cluster() || scene.hierarchy[link.q].is_cluster()) { continue; }
     if (split(link.p) || split(link.q)) { set_gradients(link, variations(scene.patches[link.p], scene.patches[link.q])); }
   }

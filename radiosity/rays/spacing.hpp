@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// How large a patch may be for light that comes from everywhere, and how much that light matters there: over a node of radius r that sees
-// things at the harmonic mean distance R, such light changes by some r / R of itself (Ward, Rubinstein and Clear 1988). So corners and
-// contacts want small nodes, and the middle of a wall large ones; and where what is seen is dark, neither matters.
+// Chooses the size of casting nodes for indirect light. Over a node of radius r that sees things at the harmonic mean distance R, such
+// light changes by a fraction of about r / R (Ward, Rubinstein and Clear 1988). So corners and contacts need small nodes, and the middle
+// of a wall large ones; where what is seen is dark, the error does not matter.
 
 #include <cstdint>
 #include <vector>
@@ -20,15 +20,15 @@ struct SpacingResult {
   std::uint32_t generations = 0;
   std::uint64_t rays = 0;
   bool cancelled = false;
-  std::uint64_t too_large = 0;  // bytes that would be needed, at least, when that is more than the budget allows
+  std::uint64_t too_large = 0;  // lower bound of the bytes needed, if that exceeds the budget
 };
 
-// Descends from the input faces, and splits leaves of more than `min_area` (relative to the exposed area of all input faces), until for
-// each node r / R times the light that it reflects, relative to the scene, times the root of its share of that area is at most
-// `tolerance`: what each adds to the L2 error is then about the same. R and that light are found by 16 rays. Lamps are left as they are,
-// and what is buried. Then casters are split as senders (senders.hpp), to a third of the tolerance: what one sends is wrong for all that
-// see it in the same sense. `of_lamps`: evaluated links that carry the light of all lamps; an end that was a leaf and is split gets its
-// gradient. By `importance`, which takes in the nodes that are made, errors count by their weight, and uneven nodes are split.
+// Descends from the input faces, splitting leaves larger than `min_area` (relative to the exposed area of all input faces), until each
+// node satisfies: r / R, times its reflected light relative to the scene, times the square root of its share of that area, is at most
+// `tolerance`. Then all nodes add about the same to the L2 error. R and the light are sampled by 16 rays. Lamps and buried nodes are not
+// changed. After that casters are split as senders (senders.hpp) with a third of the tolerance, because the error of a sender has the
+// same sign at all places that see it. `of_lamps`: evaluated links that carry the light of all lamps; if an end that was a leaf is split,
+// the link gets its gradient there. `importance` is extended to new nodes; errors are weighted by it, and uneven nodes are split.
 [[nodiscard]] SpacingResult space_casters(DiscreteScene& scene, Links& of_lamps, Importance& importance, double tolerance, double min_area);
 
 }  // namespace radiosity

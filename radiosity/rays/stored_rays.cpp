@@ -46,7 +46,8 @@ HALFLIGHT_INLINE double StoredRays::nearness(std::size_t node, double shortest) 
 
 namespace detail {
 
-// A number for each node by its place in the hierarchy, whatever else was split before it: so the rays of a leaf depend on the leaf alone.
+// A key for each node by its position in the hierarchy, independent of the order of splits, so that the rays of a leaf depend on the leaf
+// alone.
 [[nodiscard]] HALFLIGHT_INLINE std::vector<std::uint64_t> keys_of(const Hierarchy& hierarchy) {
   std::vector<std::uint64_t> keys(hierarchy.size(), 0);
   for (std::size_t i = 0; i < hierarchy.size(); ++i) {  // parents before children
@@ -57,7 +58,7 @@ namespace detail {
   return keys;
 }
 
-// One node as the rays see it that start there.
+// Draws the start points of rays on one node.
 struct RayOrigins {
   RayOrigins(const DiscreteScene& of, std::uint32_t start, std::uint64_t key)
       : scene{of},
@@ -66,8 +67,8 @@ struct RayOrigins {
         sheet{of.hierarchy[start].surface - of.surfaces[of.hierarchy[start].object].first_surface},
         numbers{of.seed, key, 0x72617973ull} {}
 
-  // Where a ray starts, and the normal there; u: coordinates of an even sequence. The first chooses among the leaves below, by what is
-  // exposed of them.
+  // The start of a ray and the normal there; u: a point of a low-discrepancy sequence. u[0] first chooses among the leaves below, by
+  // exposed area.
   [[nodiscard]] raycast::SurfacePoint start(const std::array<double, 4>& u) {
     std::uint32_t i = node;
     double across = u[0];
@@ -79,7 +80,7 @@ struct RayOrigins {
     return object.flat() ? raycast::SurfacePoint{x, patch.normal} : object.project(sheet, x);
   }
 
-  // The child in whose share of the exposed area u lies; u becomes its place within the share.
+  // The child within whose share of the exposed area u lies; u is rescaled to its position within that share.
   [[nodiscard]] std::uint32_t child_for(std::uint32_t i, double& u) const {
     const Node& parent = scene.hierarchy[i];
     double left = u * scene.exposure.area[i];
@@ -95,10 +96,10 @@ struct RayOrigins {
   std::uint32_t node;
   const raycast::PlacedObject& object;
   std::uint32_t sheet;
-  Random numbers;  // where a part of a leaf is buried
+  Random numbers;  // for leaves that are partly buried
 };
 
-// `key` of the node.
+// `key`: of the node.
 HALFLIGHT_INLINE void cast_from(const DiscreteScene& scene, const LeafLocator& locator, std::uint32_t node, std::uint64_t key,
                                 std::span<StoredRay> rays) {
   RayOrigins origins{scene, node, key};

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Rays that leave nodes of the hierarchy, kept with the leaf that each of them meets.
+// Rays that start on nodes of the hierarchy, stored with the leaf that each of them hits.
 //
-// They start at points even over a node, in directions of density cos / pi, so the share of them that meets a leaf estimates the form
-// factor to it, with all that stands between (Malley 1988). Start and end lie on the true surfaces, not on the patches.
+// They start at points uniform over a node, in cosine-distributed directions, so the fraction of them that hits a leaf estimates the form
+// factor to it, occlusion included (Malley 1988). Start and end lie on the true surfaces, not on the patches.
 
 #include <cstddef>
 #include <cstdint>
@@ -22,12 +22,12 @@
 namespace radiosity {
 
 struct StoredRay {
-  std::uint32_t to = no_node;        // a leaf; no_node: the ray met nothing, a back, or something without a leaf
-  float length = 0.0f;               // to what it met; 0: nothing; below 0: it was not cast, for its start is buried
-  glm::vec3 start{0.0f}, end{0.0f};  // from the centres of the nodes on which they lie: a leaf may be too small for floats of the frame
+  std::uint32_t to = no_node;        // the leaf; no_node: nothing was hit, or a back face, or something without a leaf
+  float length = 0.0f;               // distance of the hit; 0: nothing was hit; < 0: not cast, because its start is buried
+  glm::vec3 start{0.0f}, end{0.0f};  // relative to the centres of their nodes, because a leaf may be too small for floats in the frame
 };
 
-// In the order of the nodes, so many of each.
+// Rays in the order of the nodes, with a given number for each.
 class StoredRays {
  public:
   StoredRays() = default;
@@ -38,8 +38,8 @@ class StoredRays {
   [[nodiscard]] std::size_t count(std::size_t node) const { return first_[node + 1] - first_[node]; }
   [[nodiscard]] std::size_t size() const { return rays_.size(); }
 
-  // 1 / the harmonic mean of the lengths of a node's rays; those that met nothing count as infinitely long, and none as shorter than
-  // `shortest`, or a start beside an edge would decide alone. 0 without rays.
+  // 1 / harmonic mean length of a node's rays. Rays without a hit count as infinitely long; lengths below `shortest` count as `shortest`,
+  // because otherwise a start beside an edge would dominate. 0 without rays.
   [[nodiscard]] double nearness(std::size_t node, double shortest) const;
 
  private:
@@ -47,11 +47,11 @@ class StoredRays {
   BigArray<StoredRay> rays_;
 };
 
-// 400 million rays are 60 GB when links are made of them; a run that asks for more is refused rather than left to exhaust the memory.
+// 400 million rays take 60 GB when links are made of them; a run that asks for more is refused instead of exhausting the memory.
 inline constexpr std::uint64_t ray_limit = 400'000'000;
 
-// Casts counts[i] rays from node i, from what is exposed of its leaves: where that is not known yet, rays whose start is buried are left
-// out, and only leaves may cast. Ends early, with rays missing, when the scene's control says so.
+// Casts counts[i] rays from node i, from the exposed part of its leaves. If exposure is not known yet, only leaves may cast, and rays
+// whose start is buried are left out. Ends early, with rays missing, when the scene's control is cancelled.
 [[nodiscard]] StoredRays cast_rays(const DiscreteScene& scene, const LeafLocator& locator, const std::vector<std::uint32_t>& counts);
 
 }  // namespace radiosity

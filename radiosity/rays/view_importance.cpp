@@ -28,7 +28,7 @@ namespace radiosity {
 
 namespace detail {
 
-// One call of view_importance(). Casters are told by their index.
+// One call of view_importance(). Casters are identified by their index in `views`.
 class ViewedCasters {
  public:
   ViewedCasters(const DiscreteScene& scene, const std::vector<CasterView>& views, const std::vector<double>& direct)
@@ -55,7 +55,7 @@ class ViewedCasters {
     result.weight.assign(scene_.hierarchy.size(), 1.0);
     const std::vector<double> seen = seen_shares(from);
     double taken = 0.0;
-    double picture = 0.0;  // its squared norm
+    double picture = 0.0;  // squared norm of the reflected light in the picture
     for (std::size_t k = 0; k < views_.size(); ++k) {
       if (!(views_[k].reflectance > 0.0)) { continue; }
       taken += area_of(k) * seen[k];
@@ -68,7 +68,7 @@ class ViewedCasters {
       const std::uint32_t k = at_[i];
       if (k != no_node) { result.weight[i] = std::clamp(share * 0.5 * (seen[k] + sent[k]) * square / picture, 1.0, most_weight); }
     }
-    // What stands above casters counts as the most of them.
+    // A node above casters gets the largest weight of its children.
     for (std::size_t i = at_.size(); i-- > 0;) {
       const std::uint32_t parent = scene_.hierarchy[i].parent;
       if (parent != no_node && at_[parent] == no_node) { result.weight[parent] = std::max(result.weight[parent], result.weight[i]); }
@@ -77,11 +77,11 @@ class ViewedCasters {
   }
 
  private:
-  // A picture takes means over what its points see, which takes out most of what single casters have wrong. With 1 in place of this,
-  // pictures of rooms behind windows err by 4.2 instead of 4.7 % and take twice the time.
+  // A picture averages over what its points see, which removes most of the errors of single casters. With 1 instead of this value,
+  // pictures of rooms behind windows have an error of 4.2 instead of 4.7 % and take twice the time.
   static constexpr double share = 0.4;
-  // Under a roof of six metres on a plain of four kilometres weights are 1e6. A keyhole needs no lower limit: it takes little of the
-  // picture.
+  // Under a roof of six metres on a plain of four kilometres weights reach 1e6. A keyhole needs no lower limit, because it takes little
+  // of the picture.
   static constexpr double most_weight = 1e8;
 
   [[nodiscard]] double area_of(std::size_t k) const { return scene_.exposure.area[views_[k].node]; }
@@ -94,7 +94,7 @@ class ViewedCasters {
   void reflect() {
     indirect_.assign(views_.size(), 0.0);
     std::vector<double> next(views_.size(), 0.0);
-    constexpr int reflections = 8;  // of light that walls reflect by .7, some 94 %
+    constexpr int reflections = 8;  // for walls of reflectance 0.7, some 94 % of the light
     for (int k = 0; k < reflections; ++k) {
       for (std::size_t c = 0; c < views_.size(); ++c) {
         double sum = 0.0;
@@ -121,7 +121,7 @@ class ViewedCasters {
     return brightness;
   }
 
-  // The part of the picture that a unit of area takes of each caster: the mean over 16 points.
+  // By caster: the share of the picture that a unit of its area takes; the mean over 16 points.
   [[nodiscard]] std::vector<double> seen_shares(const Viewpoint& from) const {
     const glm::dvec3 eye = (from.eye - scene_.frame.centre) * scene_.frame.scale;
     std::vector<double> shares(views_.size(), 0.0);
@@ -143,8 +143,8 @@ class ViewedCasters {
     return shares;
   }
 
-  // How much of the picture the light of a unit of area of each caster makes by one reflection: the rays of the casters that the camera
-  // sees tell which casters light them.
+  // By caster: how much of the picture the light of a unit of its area makes after one reflection. The rays of casters seen by the camera
+  // tell which casters light them.
   [[nodiscard]] std::vector<double> sent_shares(const std::vector<double>& seen) const {
     std::vector<double> sent(views_.size(), 0.0);
     for (std::size_t c = 0; c < views_.size(); ++c) {
@@ -160,8 +160,8 @@ class ViewedCasters {
   const DiscreteScene& scene_;
   const std::vector<CasterView>& views_;
   const std::vector<double>& direct_;
-  std::vector<std::uint32_t> at_;  // of each node: the caster at or above it
-  std::vector<double> indirect_;   // of each caster
+  std::vector<std::uint32_t> at_;  // by node: the caster at or above it
+  std::vector<double> indirect_;   // by caster
 };
 
 }  // namespace detail

@@ -25,7 +25,7 @@ namespace radiosity {
 
 namespace detail {
 
-// The least error of a link or a leaf that is to be refined: those above it hold all of the sum but `keep`, within a factor of sqrt 2.
+// The least error of a link or leaf to be refined: the errors below it sum up to `keep`, within a factor of sqrt 2.
 HALFLIGHT_INLINE double refinement_threshold(const std::vector<float>& links, const std::vector<float>& leaves, double keep) {
   constexpr int half_octaves = 512;
   std::array<double, half_octaves> held{};
@@ -43,7 +43,7 @@ HALFLIGHT_INLINE double refinement_threshold(const std::vector<float>& links, co
   return std::exp2((b - half_octaves / 2) / 2.0);
 }
 
-// The error of the link of this rank, largest first; 0 beyond the last.
+// The error of the link with this rank, counted from the largest; 0 beyond the last.
 HALFLIGHT_INLINE double error_of_rank(const std::vector<LinkError>& errors, std::size_t rank) {
   if (rank >= errors.size()) { return 0.0; }
   std::vector<float> sums;
@@ -53,20 +53,21 @@ HALFLIGHT_INLINE double error_of_rank(const std::vector<LinkError>& errors, std:
   return sums[rank];
 }
 
-// The errors that splits may still mend. `stays` sums up those, above the threshold, of which nothing can be split; they are taken out.
+// The errors that splits may still reduce. `stays`: sum of errors above the threshold that cannot be split; these are removed from the
+// lists.
 struct OpenErrors {
   std::vector<float> of_links, of_leaves;
   double stays = 0.0;
 };
 
-// What the oracle is asked about a link between these nodes, or about a leaf alone. BF-refinement has no epsilon: errors decide.
+// The oracle's question about a link between these nodes, or about a leaf (p == q). BF-refinement has no epsilon; errors decide.
 HALFLIGHT_INLINE Question question_of(const BfState& state, std::uint32_t p, std::uint32_t q, const LinkError& error) {
   Question question{state.scene.hierarchy, p, q, state.scene.shown, 1.0, state.min_area, &state.stuck};
   question.error = &error;
   return question;
 }
 
-// Asks about each link whose error is at least the threshold.
+// Asks the oracle about each link whose error is at least the threshold.
 HALFLIGHT_INLINE void choose_links(const BfState& state, const AnyOracle& oracle, const std::vector<LinkError>& errors, double threshold,
                                    OpenErrors& open, SplitChoice& choice) {
   for (std::size_t i = 0; i < state.links.size(); ++i) {
@@ -84,7 +85,7 @@ HALFLIGHT_INLINE void choose_links(const BfState& state, const AnyOracle& oracle
   }
 }
 
-// Asks about leaves whose constant is too coarse, while the links above will do.
+// Asks about leaves whose constant radiosity is too coarse, while the links of their ancestors suffice.
 HALFLIGHT_INLINE void choose_leaves(const BfState& state, const AnyOracle& oracle, double threshold, OpenErrors& open,
                                     SplitChoice& choice) {
   for (std::uint32_t i = 0; i < state.scene.hierarchy.size(); ++i) {
@@ -100,8 +101,8 @@ HALFLIGHT_INLINE void choose_leaves(const BfState& state, const AnyOracle& oracl
   }
 }
 
-// The largest errors first; where none of them can be split any more, those after them. Nothing when what is left is allowed, or nothing
-// can be split. Errors below `least` stay; with a `squeeze` above 1 there are fewer splits, those with the largest errors.
+// Chooses the largest errors first; if none of these can be split, those after them. Nothing if the rest is allowed or cannot be split.
+// Errors below `least` are not split. `squeeze` > 1: fewer splits, those with the largest errors.
 HALFLIGHT_INLINE std::optional<SplitChoice> choose_largest(const BfState& state, const AnyOracle& oracle, const BfErrors& errors,
                                                            double allowed, double least, double squeeze) {
   OpenErrors open;
@@ -122,7 +123,7 @@ HALFLIGHT_INLINE std::optional<SplitChoice> choose_largest(const BfState& state,
   return choice;
 }
 
-// What there will be once the choice is carried out.
+// The counts after the choice has been carried out.
 HALFLIGHT_INLINE MemoryBudget::Counts counts_after(const BfState& state, const SplitChoice& choice) {
   const Hierarchy& hierarchy = state.scene.hierarchy;
   const MeasuredLinks& links = state.links;
@@ -144,7 +145,7 @@ HALFLIGHT_INLINE double allowed_error(const BfErrors& errors, const BfGoal& goal
 
 HALFLIGHT_INLINE bool is_last(const BfState& state, const BfErrors& errors, const BfGoal& goal) {
   const BfResult& result = state.result;
-  // Where nothing is lit yet, light may still be found.
+  // If no light has reached anything yet, go on for some generations: it may still be found.
   const bool dark = !(errors.links.norm > 0.0) && errors.sum > 0.0 && result.generations < 4;
   const bool good = !goal.deadline.limited() && result.estimate <= goal.target && !dark;
   return good || state.links.size() > link_limit;
@@ -153,13 +154,13 @@ HALFLIGHT_INLINE bool is_last(const BfState& state, const BfErrors& errors, cons
 HALFLIGHT_INLINE std::optional<SplitChoice> choose_splits(BfState& state, const BfErrors& errors, const BfGoal& goal) {
   const std::size_t links = state.links.size();
   const MemoryBudget& budget = state.scene.budget;
-  double least = error_of_rank(errors.links.links, (link_limit - links) / 8);  // children of a cluster
+  double least = error_of_rank(errors.links.links, (link_limit - links) / 8);  // a split cluster has up to eight children
   if (goal.deadline.limited()) {
-    const std::size_t most = goal.deadline.links_left(state.result.evaluations) / 4;  // a link that is refined becomes four
+    const std::size_t most = goal.deadline.links_left(state.result.evaluations) / 4;  // a refined link becomes four
     if (50 * most < links) { return std::nullopt; }
     least = std::max(least, error_of_rank(errors.links.links, most));
   }
-  for (double squeeze = 1.0;; squeeze *= 2.0) {  // until memory suffices
+  for (double squeeze = 1.0;; squeeze *= 2.0) {  // until the memory suffices
     std::optional<SplitChoice> choice = choose_largest(state, goal.oracle, errors, allowed_error(errors, goal), least, squeeze);
     if (!choice || (squeeze > 1.0 && 50 * choice->count < links)) { return std::nullopt; }
     if (!budget.limited()) { return choice; }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Which links and leaves a generation of BF-refinement splits: those with the largest errors, until those of the rest would meet the
-// target, as far as time, memory and the limit of links allow.
+// Chooses the links and leaves that a generation of BF-refinement splits: those with the largest errors, until the others would meet the
+// target, within the limits of time, memory and links.
 
 #include <optional>
 
@@ -13,13 +13,13 @@ namespace radiosity {
 
 namespace detail {
 
-// The sum of squared errors that may remain; 0 when a time limit ends the refinement.
+// The sum of squared errors that may remain; 0 if a time limit ends the refinement.
 [[nodiscard]] double allowed_error(const BfErrors& errors, const BfGoal& goal);
 
-// Does the solution meet the goal, or are there more links than there may be?
+// Does the solution meet the goal, or is the limit of links exceeded?
 [[nodiscard]] bool is_last(const BfState& state, const BfErrors& errors, const BfGoal& goal);
 
-// Nothing when no split is left that helps and fits. The result keeps how much memory the largest of the choices that do not fit needs.
+// Nothing if no split is left that helps and fits. If choices do not fit in memory, result.too_large keeps what the largest one needs.
 [[nodiscard]] std::optional<SplitChoice> choose_splits(BfState& state, const BfErrors& errors, const BfGoal& goal);
 
 }  // namespace detail

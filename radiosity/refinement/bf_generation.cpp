@@ -61,7 +61,7 @@ HALFLIGHT_INLINE bool evaluate_generation(BfState& state) {
     scene.shown = std::move(now);
   }
   result.evaluations += state.links.size() - state.measured;
-  // Once there is a solution, a generation that has begun is completed, because one that is half evaluated is no solution.
+  // Once there is a solution, a generation that has begun is completed, because a half-evaluated one is not a solution.
   const Control control = result.generations == 0 ? scene.control : scene.control.unstoppable();
   const EvaluateResult round =
       measure_links({scene.evaluator, result.refined.occluders, scene.threads, control}, state.links, state.measured);
@@ -80,7 +80,7 @@ HALFLIGHT_INLINE bool evaluate_generation(BfState& state) {
 HALFLIGHT_INLINE BfErrors estimate_errors(BfState& state, double leaf_part) {
   const DiscreteScene& scene = state.scene;
   BfResult& result = state.result;
-  Links links(scene.budget.arrays);  // packed, for the operator
+  Links links(scene.budget.arrays);  // copied to a packed array, for the operator
   links.reserve(state.links.size());
   for (const MeasuredLink& l : state.links) { links.push_back(l.link); }
   Transport transport{scene.hierarchy, links, scene.exposure, scene.threads, closed_nodes(scene, links)};
@@ -100,12 +100,12 @@ HALFLIGHT_INLINE BfErrors estimate_errors(BfState& state, double leaf_part) {
   return errors;
 }
 
-// Pairs of the children of what is split, which the oracle has not been asked about yet.
+// Pairs of children of what was split, about which the oracle has not been asked yet.
 struct OpenPairs {
   explicit OpenPairs(std::pmr::memory_resource* arrays) : pairs(arrays) {}
 
   NodePairs pairs;
-  std::vector<float> blocked;  // of each pair, as in LinkVariation
+  std::vector<float> blocked;  // by pair, as in LinkVariation
 
   void add(const NodePair& pair, float segments) {
     pairs.push_back(pair);
@@ -113,7 +113,7 @@ struct OpenPairs {
   }
 };
 
-// Splits the leaves that were asked for. The children of a concave curved face see each other.
+// Splits the chosen leaves. The children of a concave curved face see each other.
 HALFLIGHT_INLINE void split_leaves(BfState& state, const SplitChoice& choice, OpenPairs& open) {
   Hierarchy& hierarchy = state.scene.hierarchy;
   const auto before = static_cast<std::uint32_t>(hierarchy.size());
@@ -133,8 +133,7 @@ HALFLIGHT_INLINE void split_leaves(BfState& state, const SplitChoice& choice, Op
   }
 }
 
-// Takes away the links that were chosen, for pairs of their children, and those that carry nothing and whose squared error is at most
-// `negligible`.
+// Replaces the chosen links by pairs of children, and removes links without light whose squared error is at most `negligible`.
 HALFLIGHT_INLINE void split_links(BfState& state, const std::vector<LinkError>& errors, const SplitChoice& choice, double negligible,
                                   OpenPairs& open) {
   const Hierarchy& hierarchy = state.scene.hierarchy;
@@ -162,7 +161,7 @@ HALFLIGHT_INLINE void split_links(BfState& state, const std::vector<LinkError>& 
   state.measured = kept;
 }
 
-// Links the pairs that may see each other; they are measured in the next generation.
+// Makes links of the pairs that may see each other; the next generation measures them.
 HALFLIGHT_INLINE void link_pairs(BfState& state, OpenPairs open) {
   const Hierarchy& hierarchy = state.scene.hierarchy;
   state.links.reserve(state.links.size() + open.pairs.size());
@@ -177,7 +176,7 @@ HALFLIGHT_INLINE void link_pairs(BfState& state, OpenPairs open) {
           return face_away(a, b) ? Decision::drop : f_rule(a, b, 1.0, state.min_area);
         },
         [](std::size_t, const raycast::OccluderList&, Decision&) {});
-    OpenPairs parts{state.scene.budget.arrays};  // of faces that come out of their clusters in too many to be linked
+    OpenPairs parts{state.scene.budget.arrays};  // of faces from opened clusters that have too many parts to be linked
     for (std::size_t i = 0; i < open.pairs.size(); ++i) {
       if (decisions[i] < first_seeing) { continue; }
       const auto [p, q, list] = open.pairs[i];

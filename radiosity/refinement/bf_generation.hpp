@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// One generation of BF-refinement: its new links are evaluated, the system is solved roughly, the error of each link and leaf is estimated
-// from what they carry, and the links and leaves that were chosen (bf_choice.hpp) are replaced by finer ones.
+// One generation of BF-refinement: its new links are evaluated, the system is solved roughly, the errors of links and leaves are
+// estimated from the light that they carry, and the chosen links and leaves (bf_choice.hpp) are replaced by finer ones.
 
 #include <cstddef>
 #include <cstdint>
@@ -23,16 +23,16 @@ namespace detail {
 
 // What BF-refinement keeps from one generation to the next.
 struct BfState {
-  // Makes the first, coarse links by F-refinement; they are not evaluated yet. result.refined says when that failed.
+  // Makes the first, coarse links by F-refinement; they are not evaluated yet. If that fails, result.refined says why.
   explicit BfState(DiscreteScene& of);
 
   DiscreteScene& scene;
   ProofOracle proofs;
   BfResult result;
   double min_area = 0.0;          // of a leaf that may still be split
-  MeasuredLinks links;            // of now,
-  std::size_t measured = 0;       // the first so many of which have been measured
-  DoubtSum removed;               // of links that carry nothing
+  MeasuredLinks links;            // current links
+  std::size_t measured = 0;       // number of links that have been measured; these come first
+  DoubtSum removed;               // errors of removed links, which carried nothing
   std::vector<bool> sees_itself;  // nodes whose children will see each other
   std::vector<bool> stuck;        // leaves that the BRep refused to split
 };
@@ -40,27 +40,28 @@ struct BfState {
 // The estimated errors of one solution, squared.
 struct BfErrors {
   ErrorEstimation links;
-  std::vector<float> leaves;  // one a node, with the goal's part of the variation over leaves
-  double sum = 0.0;           // of all
+  std::vector<float> leaves;  // by node, weighted with the goal's leaf_part
+  double sum = 0.0;           // over all links and leaves
 };
 
 // What a generation splits (bf_choice.hpp).
 struct SplitChoice {
-  std::vector<Decision> ends;  // of each link: it stays, or which end is split
-  std::vector<bool> asked;     // nodes that are to have children
-  std::size_t count = 0;       // links and leaves that are split
+  std::vector<Decision> ends;  // by link: which end is split, or that it stays
+  std::vector<bool> asked;     // nodes that must have children
+  std::size_t count = 0;       // number of links and leaves that are split
 };
 
-// Exposes the nodes that are new and evaluates the links that are. False when the run was interrupted before there was any solution.
+// Exposes the new nodes and evaluates the new links. Returns false if the run was interrupted before there was any solution.
 [[nodiscard]] bool evaluate_generation(BfState& state);
 
-// Solves with the links of now, roughly, and estimates the error of that; the result keeps the estimate of the whole.
+// Solves roughly with the current links and estimates the error of that solution; state.result keeps the total.
 [[nodiscard]] BfErrors estimate_errors(BfState& state, double leaf_part);
 
-// Replaces what was chosen. Links that carry no light are removed when all of them together may miss no more than a hundredth of `allowed`.
+// Replaces the chosen links and leaves. Links without light are removed if all of them together may miss no more than a hundredth of
+// `allowed`.
 void split(BfState& state, const BfErrors& errors, const SplitChoice& choice, double allowed);
 
-// The result without the links that were kept for what they might carry.
+// The result, without links that were kept only because they might carry light.
 [[nodiscard]] BfResult finish(BfState& state);
 
 }  // namespace detail

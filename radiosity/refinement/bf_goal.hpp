@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// What BF-refinement (bf_refine.hpp) aims at, how long it may take, and what it gives.
+// Goal, time limit and result of BF-refinement (bf_refine.hpp).
 
 #include <chrono>
 #include <cstddef>
@@ -19,21 +19,21 @@ struct BfResult {
   Links links;
   RefineResult refined;
   EvaluateResult evaluated;
-  std::uint64_t evaluations = 0;  // of links
+  std::uint64_t evaluations = 0;  // number of link evaluations
   std::uint32_t generations = 0;
-  double estimate = 0.0;       // relative L2 error, with this part of the variation over leaves,
-  double leaf_estimate = 0.0;  // and with all of it
-  double unseen = 0.0;         // share of its square that is due to links through which no segment came
+  double estimate = 0.0;       // estimated relative L2 error, with leaf_part of the variation over leaves
+  double leaf_estimate = 0.0;  // the same with all of that variation
+  double unseen = 0.0;         // share of the squared estimate caused by links whose segments were all blocked
   bool interrupted = false;
-  std::uint64_t too_large = 0;  // bytes that a finer solution would have needed, when that was more than the budget allows
+  std::uint64_t too_large = 0;  // bytes that a finer solution would have needed, if that exceeded the budget
 };
 
-// Seconds that refinement may take, from some beginning.
+// A time limit in seconds, counted from construction.
 class Deadline {
  public:
   explicit Deadline(std::optional<double> seconds) : seconds_{seconds} {}
 
-  // How many links can be evaluated in what is left, when `links` were until now; the last solution takes its part.
+  // How many links can be evaluated in the remaining time, given that `links` were evaluated so far; keeps time for the last solution.
   [[nodiscard]] std::size_t links_left(std::uint64_t links) const;
   [[nodiscard]] bool limited() const { return seconds_.has_value(); }
 
@@ -42,13 +42,13 @@ class Deadline {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-// The estimated relative error, with `leaf_part` of the variation over leaves (leaf_error.hpp), is to be at most `target`, or, with a
-// limit, as small as the deadline allows.
+// The estimated relative error, with the share `leaf_part` of the variation over leaves (leaf_error.hpp), must be at most `target`; with
+// a time limit it is made as small as the deadline allows.
 struct BfGoal {
   double target = 0.0;
   double leaf_part = 1.0;
   Deadline deadline;
-  AnyOracle oracle = BfOracle{};  // about links with large errors
+  AnyOracle oracle = BfOracle{};  // asked about links with large errors
 };
 
 }  // namespace radiosity

@@ -13,7 +13,7 @@ namespace radiosity {
 
 namespace detail {
 
-// Nodes in clusters that have a link and hold a leaf that loses light.
+// Nodes in clusters that have a link and contain a leaf that loses light.
 HALFLIGHT_INLINE std::vector<bool> in_open_clusters(const DiscreteScene& scene, const Links& links) {
   const Hierarchy& nodes = scene.hierarchy;
   std::vector<bool> loses(nodes.size(), false), linked(nodes.size(), false);

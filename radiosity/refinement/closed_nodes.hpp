@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// What the linear system knows of light that does not get lost.
+// Tells the linear system which nodes lose no light.
 
 #include <radiosity/hierarchy/links.hpp>
 #include <radiosity/refinement/discrete_scene.hpp>
@@ -9,9 +9,9 @@
 
 namespace radiosity {
 
-// The nodes of the surfaces that lose no light (DiscreteScene::closed), and of the lamps where there are such surfaces. A cluster that has
-// a link hands what arrives to all its faces; where one of these loses light, as the half of a lamp behind the wall that it is sunk
-// into, it is not known what the form factors of the others sum up to: none of them is among the nodes.
+// The nodes of surfaces that lose no light (DiscreteScene::closed), and, if there are any, the nodes of lamps. A cluster with a link
+// passes light to all its faces. If one of these loses light, as the half of a lamp behind the wall into which it is sunk, the row sums
+// of the others are not known, so none of that cluster's nodes is included.
 [[nodiscard]] ClosedNodes closed_nodes(const DiscreteScene& scene, const Links& links);
 
 }  // namespace radiosity

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Which runs build clusters above their input faces, and what a run says that would need too many links.
+// Decides which runs build clusters above their input faces, and words the failure of a run that would need too many links.
 
 #include <cstddef>
 #include <cstdint>
@@ -29,7 +29,7 @@ struct ClusterChoice {
   return {true, {}};
 }
 
-// `links`: at least so many would be needed.
+// `links`: lower bound of the number that would be needed.
 [[nodiscard]] inline std::string too_many_links(std::uint64_t links, const ClusterChoice& clusters) {
   std::string sentence = "the run would need at least " + std::to_string(links / 1'000'000) + " million links, " +
                          std::to_string(links * sizeof(Link) / 1'000'000'000) + " GB; the limit is " +

@@ -23,7 +23,7 @@ namespace detail {
   return values;
 }
 
-// Area averages of inner nodes, from the values of the leaves.
+// Sets the values of inner nodes to area averages of the leaves.
 HALFLIGHT_INLINE void average_up(const Hierarchy& hierarchy, const std::vector<double>& area, std::vector<double>& values) {
   for (std::size_t i = hierarchy.size(); i-- > 0;) {  // children before parents
     const Node& node = hierarchy[i];
@@ -52,7 +52,7 @@ HALFLIGHT_INLINE CoarseLight coarse_light(const DiscreteScene& scene, const Link
       arrived[link.q] += static_cast<double>(link.exchange) * radiosity[link.p];
     }
     light.reflected_square = 0.0;
-    for (std::size_t i = 0; i < hierarchy.size(); ++i) {  // parents before children; from here on it is an irradiance
+    for (std::size_t i = 0; i < hierarchy.size(); ++i) {  // parents before children; `arrived` becomes an irradiance
       const Node& node = hierarchy[i];
       arrived[i] = (area[i] > 0.0 ? arrived[i] / area[i] : 0.0) + (node.parent != no_node ? arrived[node.parent] : 0.0);
       if (!node.leaf()) { continue; }

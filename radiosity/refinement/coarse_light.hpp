@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// A coarse solution over evaluated links, to judge by where light matters: grey (the brightest channel), every link as if it were even
-// over both its ends, clusters as if they were diffuse, and no light that was reflected more than a few times. One pass over the links a
-// reflection, so it costs some per cent of what their evaluation does.
+// A coarse solution over evaluated links, to judge where light matters: grey (the brightest channel), with constant light over both ends
+// of a link, diffuse clusters, and only a few reflections. It takes one pass over the links per reflection, some per cent of the time of
+// their evaluation.
 
 #include <cstdint>
 #include <vector>
@@ -14,12 +14,12 @@
 namespace radiosity {
 
 struct CoarseLight {
-  std::vector<double> radiosity;    // of each node; of inner nodes and clusters the area average
-  std::vector<double> reflectance;  // of each input surface
-  double reflected_square = 0.0;    // sum over the leaves of area times the square of what they reflect
+  std::vector<double> radiosity;    // by node; area average for inner nodes and clusters
+  std::vector<double> reflectance;  // by input surface
+  double reflected_square = 0.0;    // sum over the leaves of area times squared reflected radiosity
 };
 
-// Needs the exposed areas of all nodes.
+// Requires the exposed areas of all nodes.
 [[nodiscard]] CoarseLight coarse_light(const DiscreteScene& scene, const Links& links, std::uint32_t reflections);
 
 }  // namespace radiosity

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// A scene as a run cuts it up: the prepared scene, the hierarchy over its surfaces, and for each node of the hierarchy its patch and what
-// of it is exposed. Refinement lets it grow; everything after refinement reads it.
+// A discretised scene: the prepared scene, the hierarchy over its surfaces, and for each node its patch and its exposed part. Refinement
+// extends it; everything after refinement only reads it.
 
 #include <cstddef>
 #include <cstdint>
@@ -32,34 +32,34 @@
 
 namespace radiosity {
 
-// Its parts refer to each other, so it is neither copied nor moved.
+// The parts refer to each other, so it can be neither copied nor moved.
 struct DiscreteScene {
-  // The scene must outlive this. Nothing is prepared yet.
+  // `scene` must outlive this. Nothing is prepared yet.
   DiscreteScene(const Scene& scene, unsigned thread_limit, std::uint64_t random_seed, const Control& controlled_by = {},
                 const MemoryBudget& within = {});
   DiscreteScene(const DiscreteScene&) = delete;
   DiscreteScene& operator=(const DiscreteScene&) = delete;
 
-  // What prepare() made of the scene, and the materials of its input surfaces. The hierarchy is still empty.
+  // Takes over the result of prepare() and looks up the materials of the input surfaces. The hierarchy is still empty.
   void take(Prepared prepared);
 
-  // Makes the patches of all nodes that have none, and measures what of them is exposed.
+  // Makes the patches of all nodes that have none, and measures their exposed parts.
   void expose();
 
   [[nodiscard]] SceneView view() const { return {objects, plan, surfaces, hierarchy, patches}; }
-  // Is node 0 a cluster of all? Lamps may have clusters without that.
+  // Is node 0 a cluster of the whole scene? Lamps may have clusters even if it is not.
   [[nodiscard]] bool clustered() const { return !hierarchy.empty() && hierarchy[0].is_cluster(); }
   // Are there nodes that lose no light?
   [[nodiscard]] bool any_closed() const { return plan.closed || !closed.empty(); }
-  // Is node i one of those? It is when its parent is, for nodes that are newer than `closed`.
+  // Does node i lose no light? Nodes newer than `closed` inherit this from their parents.
   [[nodiscard]] bool loses_nothing(std::size_t i) const {
     if (hierarchy[i].is_cluster() || !any_closed()) { return false; }
     while (!plan.closed && i >= closed.size()) { i = hierarchy[i].parent; }
     return plan.closed || closed[i];
   }
-  // What the clusters show by the exposed areas of now.
+  // The clusters' projected areas, from the current exposed areas.
   [[nodiscard]] ShownAreas exposed_shown() const;
-  // Held by the compiled objects and the BReps.
+  // Bytes held by the compiled objects and the BReps.
   [[nodiscard]] std::uint64_t bytes() const;
 
   const Scene& input;
@@ -68,24 +68,24 @@ struct DiscreteScene {
   Control control;
   MemoryBudget budget;
   Meshing meshing = RegularMeshing{};
-  std::optional<LightMeshing> light_meshing;  // the one in use
+  std::optional<LightMeshing> light_meshing;  // referred to by `meshing`
 
   Frame frame;
   raycast::Scene objects;         // in the frame
   std::vector<Surface> surfaces;  // boundary of each object
   Plan plan;
   std::vector<InputSurface> inputs;
-  std::vector<std::uint32_t> materials;      // of each input surface,
-  std::vector<Color> reflectance, emission;  // and what these are
-  std::vector<bool> closed;                  // where the plan does not say that all is: nodes that lose no light (closed_parts.hpp)
-  std::vector<bool> lamps;                   // where other light goes by stored rays: input surfaces whose light goes by links
+  std::vector<std::uint32_t> materials;      // by input surface
+  std::vector<Color> reflectance, emission;  // of these materials
+  std::vector<bool> closed;  // by node: loses no light (closed_parts.hpp); empty if plan.closed says so of all or no closed part was found
+  std::vector<bool> lamps;   // by input surface, if other light goes by stored rays: does its light go by links?
 
   Hierarchy hierarchy;
   Patches patches;
   Exposure exposure;
-  ShownAreas shown;  // by the clusters
+  ShownAreas shown;  // projected areas of the clusters
   LinkEvaluator evaluator;
-  std::optional<LampExchange> lamp_exchange;  // the one in use
+  std::optional<LampExchange> lamp_exchange;  // referred to by `evaluator`
 };
 
 [[nodiscard]] inline SurfaceLight surface_light(const DiscreteScene& scene) {

@@ -34,7 +34,7 @@ namespace radiosity {
 
 namespace detail {
 
-// Which roots send light: those that emit, and, step by step, those that reflect and may be linked to one that sends.
+// Which roots send light: those that emit, and, repeatedly, those that reflect and may be linked to one that sends.
 HALFLIGHT_INLINE std::vector<bool> sending_roots(const DiscreteScene& scene, const NodePairs& pairs,
                                                  const std::vector<Decision>& decisions) {
   const Hierarchy& roots = scene.hierarchy;
@@ -55,22 +55,22 @@ HALFLIGHT_INLINE std::vector<bool> sending_roots(const DiscreteScene& scene, con
   return sends;
 }
 
-// How far the light of a lamp may vary, relative to the mean emission.
+// Largest variation of a lamp's light, relative to the mean emission.
 [[nodiscard]] HALFLIGHT_INLINE double light_epsilon_of_emission(const Fineness& to) { return to.reflected * to.light_epsilon; }
 
-// The factor, at most 1, by which light is resolved finer than epsilon alone demands. Dim reflected light makes it at most twice as fine:
-// light through a pinhole varies everywhere by more than its own value, and would be refined without end.
+// The factor, at most 1, by which light is resolved finer than epsilon alone requires. Dim reflected light contributes at most a factor
+// of 2, because light through a pinhole varies everywhere by more than its own value and would be refined endlessly.
 [[nodiscard]] HALFLIGHT_INLINE double finer_for_light(const Fineness& to) {
   const double dim = std::max(0.5, to.reflected);
   return std::min(1.0, dim * to.light_epsilon / (0.25 * to.epsilon));
 }
 
-// A patch of up to so many times the least area is not split for the form factor of a pair: its quarters would be smaller than that. Close
-// pairs in corners and at contacts are most of all links when all of them go down to the least area, and hardly anything is gained by that:
-// by measurement, four times the area gives half of the links and the same error, and the light of lamps still splits leaves below it.
+// A patch of up to this many times the least area is not split for the form factor of a pair, because its quarters would be smaller than
+// that. Close pairs in corners and at contacts would be most of all links if all of them went down to the least area, with hardly any
+// gain: by measurement, a factor of four gives half of the links and the same error, and the light of lamps still splits leaves below it.
 inline constexpr double largest_linked = 4.0;
 
-// F-refinement between two generations.
+// The state of F-refinement between two generations.
 struct FRefinement {
   FRefinement(DiscreteScene& of, const Fineness& to)
       : scene{of},
@@ -86,7 +86,7 @@ struct FRefinement {
     result.occluders = OccluderLists(of.budget.arrays);
   }
 
-  // Whether so many may be made; if not, the result says what they would need.
+  // May so many links be made? If not, result.too_many is set.
   [[nodiscard]] bool few_enough(std::uint64_t links) {
     if (links > link_limit) { result.too_many = links; }
     return result.too_many == 0;
@@ -98,25 +98,25 @@ struct FRefinement {
   }
 
   [[nodiscard]] double weight(std::uint32_t i) const { return fineness.importance != nullptr ? fineness.importance->weight(i) : 1.0; }
-  // Of leaves, for the light of lamps and for the form factor of a pair.
+  // Least areas of leaves that are split: for the light of lamps, and for the form factor of a pair.
   [[nodiscard]] double light_min_area_of(std::uint32_t i) const { return light_min_area / weight(i); }
   [[nodiscard]] double min_area_of(std::uint32_t p, std::uint32_t q) const { return min_area / std::max(weight(p), weight(q)); }
 
   DiscreteScene& scene;
   Fineness fineness;
   ProofOracle proofs;
-  ShownAreas shown;  // by the clusters, by the whole area of their faces
+  ShownAreas shown;  // of the clusters, by the whole area of their faces
   LightOracle light;
-  double min_area;  // of a leaf that is split for a form factor, in the squared unit of the frame
+  double min_area;  // of a leaf that is split for a form factor, in squared units of the frame
   double light_min_area;
   MeasuredLight measured;
-  NodePairs pairs;                 // open
+  NodePairs pairs;                 // open pairs
   std::vector<bool> stuck;         // leaves that the BRep refused to split
-  std::uint32_t nodes_before = 0;  // when split_leaves() began
+  std::uint32_t nodes_before = 0;  // at the beginning of split_leaves()
   RefineResult result;
 };
 
-// The answer of an oracle, but no leaf is split for a pair of which neither end is larger than min_area.
+// Replaces the answer of an oracle by `link` if a leaf would be split although neither end is larger than min_area.
 [[nodiscard]] HALFLIGHT_INLINE Decision within_min_area(const Question& question, Decision answer) {
   if (answer != Decision::split_p && answer != Decision::split_q) { return answer; }
   const Node& split = answer == Decision::split_p ? question.node_p() : question.node_q();
@@ -124,7 +124,7 @@ struct FRefinement {
   return split.leaf() && small ? Decision::link : answer;
 }
 
-// What to do with each open pair; without meaning once the run is cancelled.
+// The decision about each open pair; meaningless after cancellation.
 HALFLIGHT_INLINE std::vector<Decision> ask_oracles(FRefinement& state) {
   DiscreteScene& scene = state.scene;
   scene.patches.extend(scene.threads);
@@ -156,7 +156,7 @@ HALFLIGHT_INLINE std::vector<Decision> ask_oracles(FRefinement& state) {
   return decisions;
 }
 
-// No light passes between two input faces that send none. A closed scene keeps such pairs, for its row sums.
+// Drops pairs of input faces that send no light. A closed scene keeps them, for its row sums.
 HALFLIGHT_INLINE void drop_dark_pairs(FRefinement& state, std::vector<Decision>& decisions) {
   const bool shortcuts = state.scene.plan.shortcuts;
   const std::vector<bool> sends = sending_roots(state.scene, state.pairs, decisions);
@@ -177,7 +177,8 @@ HALFLIGHT_INLINE void tell(const FRefinement& state, const std::vector<Decision>
   }
 }
 
-// Splits the leaves that any pair asks for, in the order of their index. False, and nothing is split, when memory does not suffice.
+// Splits the leaves that any pair has requested, in the order of their index. Returns false, without splitting, if the memory does not
+// suffice.
 [[nodiscard]] HALFLIGHT_INLINE bool split_leaves(FRefinement& state, const std::vector<Decision>& decisions) {
   Hierarchy& hierarchy = state.scene.hierarchy;
   std::vector<bool> asked(hierarchy.size(), false);
@@ -196,8 +197,8 @@ HALFLIGHT_INLINE void tell(const FRefinement& state, const std::vector<Decision>
   return true;
 }
 
-// A link whose small end was split just now for another lamp, or another face of the same one, is asked about again: where the light of one
-// face rises as that of another falls, resolving one of them alone would make the sum worse.
+// Is this link asked about again? It is if its small end was split just now for another lamp, or another face of the same one: where the
+// light of one face rises as that of another falls, resolving only one of them would make the sum worse.
 [[nodiscard]] HALFLIGHT_INLINE bool asked_again(const FRefinement& state, const NodePair& pair, Decision decision) {
   const Hierarchy& nodes = state.scene.hierarchy;
   const auto split_now = [&](std::uint32_t i) {
@@ -209,7 +210,7 @@ HALFLIGHT_INLINE void tell(const FRefinement& state, const std::vector<Decision>
   return (split_now(pair.p) && shines(q)) || (split_now(pair.q) && shines(p));
 }
 
-// How many pairs the next generation will have; nothing when these, or the links that are made now, are more than there may be.
+// The number of pairs in the next generation; nothing if these, or the links made now, exceed a limit.
 [[nodiscard]] HALFLIGHT_INLINE std::optional<std::uint64_t> count_opened(FRefinement& state, const std::vector<Decision>& decisions) {
   const Hierarchy& hierarchy = state.scene.hierarchy;
   std::uint64_t links = state.result.linked.size(), opened = 0;
@@ -225,7 +226,7 @@ HALFLIGHT_INLINE void tell(const FRefinement& state, const std::vector<Decision>
   return opened;
 }
 
-// The pairs of the children of `split` with the other node, or with each other.
+// Adds the pairs of the children of `split` with the other node, or with each other if both are the same.
 HALFLIGHT_INLINE void descend(const Hierarchy& hierarchy, std::uint32_t split, std::uint32_t other, std::uint32_t list, NodePairs& pairs) {
   const std::uint32_t first = hierarchy[split].first_child;
   const std::uint32_t last = first + hierarchy[split].child_count;
@@ -234,13 +235,12 @@ HALFLIGHT_INLINE void descend(const Hierarchy& hierarchy, std::uint32_t split, s
       pairs.push_back({a, other, list});
       continue;
     }
-    // A cluster with itself: all pairs of its children, and the clusters among them with themselves.
+    // A cluster with itself: all pairs of its children, and child clusters with themselves.
     for (std::uint32_t b = hierarchy[a].is_cluster() ? a : a + 1; b < last; ++b) { pairs.push_back({a, b}); }
   }
 }
 
-// Links the pairs for which that was decided, keeps those that are asked about again, and replaces those that are split by the pairs
-// of the children.
+// Links the pairs for which that was decided, keeps those that are asked about again, and replaces split ones by the pairs of the children.
 HALFLIGHT_INLINE void link_or_descend(FRefinement& state, const std::vector<Decision>& decisions, NodePairs& next) {
   const Hierarchy& hierarchy = state.scene.hierarchy;
   for (std::size_t i = 0; i < state.pairs.size(); ++i) {
@@ -248,7 +248,7 @@ HALFLIGHT_INLINE void link_or_descend(FRefinement& state, const std::vector<Deci
     if (decisions[i] < first_seeing) { continue; }
     bool split_p = decisions[i] == Decision::split_p && !state.stuck[p];
     bool split_q = decisions[i] == Decision::split_q && !state.stuck[q];
-    if (decisions[i] != Decision::link && !split_p && !split_q) {  // stuck: up to the other, if that is a cluster
+    if (decisions[i] != Decision::link && !split_p && !split_q) {  // stuck: split the other end if that is a cluster
       split_p = hierarchy[p].is_cluster();
       split_q = hierarchy[q].is_cluster();
     }
@@ -260,7 +260,7 @@ HALFLIGHT_INLINE void link_or_descend(FRefinement& state, const std::vector<Deci
   }
 }
 
-// The children of a concave curved face see each other.
+// The children of a concave curved face see each other, so their pairs are added.
 HALFLIGHT_INLINE void descend_inner(FRefinement& state, NodePairs& next) {
   const Hierarchy& hierarchy = state.scene.hierarchy;
   std::vector<std::uint32_t> still_inner;

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// F-refinement (paper 4.4): every pair of input faces is linked where the oracle allows, and patches are split where it does
-// not; where a light shines, the light oracle is asked as well. The work goes generation by generation: the oracles answer
-// for all open pairs in parallel, then links and splits are carried out in the order of the pairs and of the nodes. So the
-// result is the same for any number of threads, and a split asked for by many pairs happens once.
+// F-refinement (paper 4.4): every pair of input faces is linked if the oracle allows it, otherwise a patch is split; for lamps
+// the light oracle is asked as well. The work proceeds in generations: the oracles answer for all open pairs in parallel, then
+// links and splits are carried out in the order of the pairs and of the nodes. So the result is the same for any number of
+// threads, and a split requested by many pairs happens once.
 //
-// Where there are clusters (clusters.hpp) the work begins with the pair of their root with itself, and clusters are opened as patches are
-// split.
+// If there are clusters (clusters.hpp) the work begins with the pair of their root with itself, and clusters are opened in the same way
+// as patches are split.
 //
-// Each pair knows what can stand between its patches (occlusion.hpp): a pair that is proven hidden is dropped with all pairs below it.
+// Each pair has a list of its possible blockers (occlusion.hpp): a pair that is proven hidden is dropped along with all pairs below it.
 //
 // Invariant: after each generation every BRep is valid and every unordered pair of leaves that can face and see each other is
 // covered by exactly one link or open pair between ancestors (or the leaves themselves).
@@ -33,20 +33,20 @@
 
 namespace radiosity {
 
-// 100 million links are 2.4 GB, and 3.6 GB while they are made of pairs; a scene that asks for more is refused rather than left to exhaust
-// the memory.
+// 100 million links are 2.4 GB, and 3.6 GB while they are made of pairs; a scene that needs more is refused instead of exhausting the
+// memory.
 inline constexpr std::size_t link_limit = 100'000'000;
 
 namespace detail {
 
-// Asks `ask(p, q)` what to do with each pair and, unless it drops the pair, looks at what can stand between: hidden pairs are dropped,
-// the others keep their list and are shown to `look(pair, list, decision)`, in parallel. Without shortcuts what would be dropped is linked,
-// except for patches of one curved convex solid (plan.hpp).
+// Decides about each pair in parallel: ask(p, q) gives the decision. Unless that drops the pair, its possible blockers are looked up; a
+// pair that is proven hidden is dropped, others keep their list, and look(pair, list, decision) may change the decision. Without
+// shortcuts, dropped pairs are linked instead, except for patches of one curved convex solid (plan.hpp).
 template <class Ask, class Look>
 std::vector<Decision> decide(const DiscreteScene& scene, NodePairs& pairs, RefineResult& result, const Ask& ask, const Look& look) {
   std::vector<Decision> decisions(pairs.size(), Decision::drop);
   const SceneView view = scene.view();
-  constexpr std::size_t batch = 1 << 14;  // lists of full length that live at a time
+  constexpr std::size_t batch = 1 << 14;  // bounds the number of full lists in memory
   std::vector<raycast::OccluderList> lists(std::min(batch, pairs.size()));
   for (std::size_t first = 0; first < pairs.size(); first += batch) {
     const std::size_t count = std::min(batch, pairs.size() - first);
@@ -84,14 +84,14 @@ std::vector<Decision> decide(const DiscreteScene& scene, NodePairs& pairs, Refin
 
 }  // namespace detail
 
-// How fine the links are. `min_area` is relative to the area of all roots that are not buried; the light oracle is not asked when its
-// `light_epsilon` is 0.
+// How fine the links are. `min_area`: relative to the area of all roots that are not buried. If `light_epsilon` is 0 the light oracle is
+// not asked.
 struct Fineness {
   double epsilon = 0.0, min_area = 0.0;
-  double light_epsilon = 0.0;        // relative to the reflected light,
-  double reflected = 1.0;            // which is about as bright as this times the mean emission
-  AnyOracle oracle = FOracle{};      // about the form factor
-  Importance* importance = nullptr;  // finer for the picture of one camera; takes in the nodes that are made
+  double light_epsilon = 0.0;        // relative to the reflected light
+  double reflected = 1.0;            // RMS of the reflected light, relative to the mean emission
+  AnyOracle oracle = FOracle{};      // for form factors
+  Importance* importance = nullptr;  // weights for the picture of one camera, or null; extended to new nodes
 };
 
 // Builds the links of the hierarchy, splitting leaves as needed.

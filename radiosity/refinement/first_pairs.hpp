@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Where F-refinement begins (f_refine.hpp).
+// The pairs with which F-refinement begins (f_refine.hpp).
 
 #include <cstdint>
 #include <vector>
@@ -17,8 +17,8 @@ namespace radiosity::detail {
 // Nodes without a parent.
 [[nodiscard]] std::vector<std::uint32_t> tops(const Hierarchy& hierarchy);
 
-// The pair of the root cluster with itself, or all pairs of input faces. In `result.inner` the input faces whose own parts may face each
-// other.
+// Adds the pair of the root cluster with itself, or all pairs of input faces. `result.inner` receives the input faces whose parts may
+// face each other.
 void first_pairs(const DiscreteScene& scene, const ProofOracle& proofs, Linked linked, NodePairs& pairs, RefineResult& result);
 
 }  // namespace radiosity::detail

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// What counts as a lamp: it shines so much brighter than all surfaces do in the mean that its light is looked after link by link.
+// Defines lamps: surfaces so much brighter than the mean that their light is carried by links, not by rays.
 
 #include <vector>
 
@@ -9,14 +9,14 @@
 
 namespace radiosity {
 
-// What shines at most so much brighter than all surfaces do in the mean is no lamp where faces that shine are many: rays find it.
+// If many faces emit, those of at most this multiple of the mean emission are not lamps, because rays find them.
 inline constexpr double least_lamp_contrast = 4.0;
 
-// Of each input surface: does it shine far brighter than all do in the mean? In the open the mean is that over the box around the scene:
-// rays seldom meet what is small in it.
+// By input surface: is it a lamp? In an open scene the mean emission is taken over the box around the scene, because rays rarely hit a
+// small emitter in it.
 [[nodiscard]] std::vector<bool> choose_lamps(const DiscreteScene& scene);
 
-// The nodes of such surfaces, and the clusters of nothing else. Empty if there are none.
+// The nodes of lamps, and the clusters that contain nothing else. Empty if there are none.
 [[nodiscard]] std::vector<bool> lamp_nodes(const DiscreteScene& scene);
 
 }  // namespace radiosity

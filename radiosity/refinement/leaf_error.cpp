@@ -40,8 +40,8 @@ HALFLIGHT_INLINE LeafErrors estimate_leaf_errors(const DiscreteScene& scene, con
   const Hierarchy& hierarchy = scene.hierarchy;
   const std::vector<double>& area = scene.exposure.area;
   struct Gradient {
-    std::array<glm::dvec3, 3> sum{glm::dvec3{0.0}, glm::dvec3{0.0}, glm::dvec3{0.0}};  // of the irradiance, one a channel
-    Color squares{0.0};                                                                // of the links for themselves
+    std::array<glm::dvec3, 3> sum{glm::dvec3{0.0}, glm::dvec3{0.0}, glm::dvec3{0.0}};  // of the irradiance, by channel
+    Color squares{0.0};                                                                // sum of the links' squared gradients
   };
   std::vector<Gradient> gradient(hierarchy.size());
   const auto arrives = [&](std::uint32_t i, double exchange, const Color& sent, const glm::dvec3& relative) {
@@ -79,7 +79,7 @@ HALFLIGHT_INLINE LeafErrors estimate_leaf_errors(const DiscreteScene& scene, con
   return errors;
 }
 
-// The leaf of `node` whose centre is nearest to x, one level after the other.
+// The leaf below `node` whose centre is nearest to x, found level by level.
 [[nodiscard]] HALFLIGHT_INLINE std::uint32_t leaf_beside(const Hierarchy& hierarchy, const std::vector<double>& area, std::uint32_t node,
                                                          const glm::dvec3& x) {
   while (!hierarchy[node].leaf()) {
@@ -102,7 +102,7 @@ HALFLIGHT_INLINE double variation_by_siblings(const Hierarchy& hierarchy, const 
   const auto square_between = [&](std::uint32_t a, std::uint32_t b) {
     return glm::dot(radiosity[a] - radiosity[b], radiosity[a] - radiosity[b]);
   };
-  // From a leaf to a child that was split, by the slope up to the next of that child's leaves.
+  // Squared difference between a leaf and a sibling that was split, extrapolated from the nearest of the sibling's leaves.
   const auto square_to = [&](std::uint32_t leaf, std::uint32_t child) {
     const glm::dvec3& x = hierarchy[leaf].centre;
     const std::uint32_t next = leaf_beside(hierarchy, area, child, x);

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The error of leaves by what varies over them. A link passes the linear part of its light on to the leaves below it, but a leaf i has one
-// constant. With g_i the gradient of the irradiance that all links at i and above it bring there, added as vectors,
+// The error of leaves caused by variation over them. A link passes the linear part of its light on to the leaves below, but a leaf i has
+// a single constant. With g_i the gradient of the irradiance at i, summed as vectors over all links of i and its ancestors,
 //
 //     e_i^2 = A_i rho^2 (mean over i of (g_i . (x - c_i))^2)               reduced by splitting i, while its links stay where they are
 //
-// which is an error of the constants; of a picture, that interpolates between leaves, a part of it. On curved objects the gradients of the
-// links, and so g, hold the turn of the normals (bend.hpp).
+// This is the error of the constants; a picture, which interpolates between leaves, has a part of it. On curved objects the gradients of
+// the links, and so g, include the variation of the normals (bend.hpp).
 
 #include <algorithm>
 #include <vector>
@@ -24,28 +24,29 @@ namespace radiosity {
 
 namespace detail {
 
-// By the variation of the light over each leaf, squared.
+// Squared errors by the variation of the light over each leaf.
 struct LeafErrors {
-  std::vector<float> squares;  // one a node; none where the leaves are not told apart
+  std::vector<float> squares;  // by node; empty if leaves are not evaluated individually
   double sum = 0.0;
-  double apart = 0.0;  // what the sum would be if links were independent
+  double apart = 0.0;  // the sum if the gradients of links were independent
 
-  // The gradients of links at one place add up or cancel (in a scene of uniform radiosity they cancel), and so do their other errors.
+  // Ratio of both sums. The gradients of links at one place add up or cancel (in a scene of uniform radiosity they cancel), and so do
+  // their other errors.
   [[nodiscard]] double alike() const { return apart > 0.0 ? std::clamp(sum / apart, 1e-4, 1e2) : 1.0; }
 };
 
-// Mean over a patch of the square of g . (x - c), c its centroid.
+// Mean of (g . (x - c))^2 over a patch, c its centroid.
 [[nodiscard]] double mean_square(const Patch& patch, const glm::dvec3& g);
 
-// Of links that have their gradients, at leaves too.
+// Requires links with gradients, also at leaves.
 LeafErrors estimate_leaf_errors(const DiscreteScene& scene, const Links& links, const std::vector<Color>& radiosity);
 
-// The variation over leaves where the gradients at leaves are not known, from the differences between the leaves of one parent. Where light
-// changes linearly over a parent of four leaves, squares or triangles, the variance within each is a third of that between them. Where
-// some of the children were split once more, light changes more over these than over the leaves beside them: a leaf then varies by half
-// the square of what it differs from the child that is most like it (over all directions of a gradient the mean for squares is 1 / 2.2).
-// For a child that was split, the slope up to the nearest of its leaves tells that difference, because a bright child may begin where a
-// leaf in shadow ends.
+// Estimates the same sum if the gradients at leaves are not known, from the differences between sibling leaves. Where light is linear
+// over a parent of four leaves, squares or triangles, the variance within each is a third of that between them. Where some of the
+// children have been split once more, light varies more over these than over the leaves beside them: the variance of a leaf is then taken
+// as half of the squared difference from its most similar sibling (for squares the mean over all directions of a gradient is 1 / 2.2).
+// For a sibling that was split, that difference is extrapolated from the nearest of its leaves, because a bright sibling may begin where
+// a leaf in shadow ends.
 double variation_by_siblings(const Hierarchy& hierarchy, const std::vector<double>& area, const std::vector<Color>& radiosity);
 
 }  // namespace detail

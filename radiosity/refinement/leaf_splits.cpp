@@ -31,21 +31,21 @@ namespace radiosity {
 
 namespace detail {
 
-// How the light from one patch changes over another: relative change per length of the kernel between their centres, and about how far the
-// light may be from that linear function, RMS relative to the mean. Where they are too near to say, all of it.
+// Estimate of the variation of one patch's light over another: gradient, as relative change per length of the kernel between their
+// centres, and the RMS deviation from that linear function, relative to the mean; 1 if they are too near for an estimate.
 struct RoughVariation {
   glm::dvec3 gradient{0.0};
   double rest = 1.0;
 };
 
-// ln (cos cos / r^2) changes by 4 d / r^2, as the place rises above the other's plane by n / height, and as its own normal turns. The rest
-// is of second order in what that makes at most over the patch.
+// Gradient of ln (cos cos / r^2): 4 d / r^2 from the distance, n / height from the height above the other's plane, and a term from the
+// variation of the own normal. The remainder is of second order in the largest change over the patch.
 [[nodiscard]] HALFLIGHT_INLINE RoughVariation rough_variation(const Node& over, const Patch& patch, const Node& from) {
   const glm::dvec3 d = from.centre - over.centre;
   const double r = glm::length(d);
   const double near = r - from.radius;
-  const double height = -glm::dot(from.normal, d);     // of this one above the other's plane
-  const double own_height = glm::dot(over.normal, d);  // of the other above this one's
+  const double height = -glm::dot(from.normal, d);     // of this patch above the other's plane
+  const double own_height = glm::dot(over.normal, d);  // of the other patch above this one's plane
   if (!(near > over.radius) || !(height > 0.0) || !(own_height > 0.0)) { return {}; }
   const double most = 0.5 * (over.radius * (4.0 / near + 1.0 / height) + over.deviation * r / own_height);
   if (!(most < 1.0)) { return {}; }
@@ -84,23 +84,23 @@ class LeafSplitting {
   }
 
  private:
-  // A leaf and the square of its error.
+  // A leaf and its squared error.
   struct Wanted {
     std::uint32_t node = no_node;
     double error = 0.0;
-    bool again = true;  // its children may be split, too
+    bool again = true;  // may its children be split, too?
   };
 
   [[nodiscard]] double reflectance(std::size_t i) const { return light_.reflectance[hierarchy_[i].surface]; }
-  // Links of lamps' clusters are not made for parts of these.
+  // False also for lamps with clusters: links of lamp clusters are not made for parts of lamps.
   [[nodiscard]] bool may_split(std::size_t i) const {
     const Node& node = hierarchy_[i];
     return node.leaf() && node.area > least_area_ && area_[i] > 0.0 && !scene_.exposure.partly_buried[i] && reflectance(i) > 0.0 &&
            !(scene_.lamp_exchange && scene_.lamps[node.surface]);
   }
   [[nodiscard]] bool between_leaves(const Link& link) const { return hierarchy_[link.p].leaf() && hierarchy_[link.q].leaf(); }
-  // Calls visit(link, i, j, shape) for each end i of a link that is a patch and may have a gradient, j the other end: links of clusters
-  // have none, but those of clusters of lamps alone.
+  // Calls visit(link, i, j, shape) for each end i of a link that is a patch and may have a gradient; j: the other end. Links with
+  // clusters have no gradients, except those with clusters of lamps.
   template <class Visit>
   void each_end(const Visit& visit) const {
     for (const Link& link : links_) {
@@ -110,17 +110,17 @@ class LeafSplitting {
       if (!q_cluster && area_[link.q] > 0.0) { visit(link, link.q, link.p, link.shape_q); }
     }
   }
-  // What falls on a node by a link from another one, per area.
+  // Irradiance of a node by a link from another one.
   [[nodiscard]] double irradiance(const Link& link, std::uint32_t on, std::uint32_t from) const {
     return static_cast<double>(link.exchange) / area_[on] * light_.radiosity[from];
   }
-  // What falls on a node by links of its ancestors has their gradients, too. Parents first.
+  // Adds the gradients of a node to its children; to be called for parents first.
   void inherit(std::vector<glm::dvec3>& gradient, std::uint32_t i) const {
     const Node& node = hierarchy_[i];
     for (std::uint32_t c = node.first_child; c < node.first_child + node.child_count; ++c) { gradient[c] += gradient[i]; }
   }
 
-  // Leaves whose error may be large.
+  // Marks leaves whose error may be large.
   void choose_candidates() {
     std::vector<glm::dvec3> gradient(hierarchy_.size(), glm::dvec3{0.0});
     std::vector<double> rest(hierarchy_.size(), 0.0);
@@ -143,7 +143,8 @@ class LeafSplitting {
     }
   }
 
-  // Gives links between leaves their gradients where one of these is a candidate. What these leave at a leaf counts once it is split.
+  // Sets the gradients of links between leaves if one of these is a candidate. Variation that they cannot express counts once the leaf is
+  // split.
   void set_gradients_at_candidates(DoubtSum& doubt) {
     std::vector<char> leaf(hierarchy_.size());
     for (std::size_t i = 0; i < leaf.size(); ++i) { leaf[i] = hierarchy_[i].leaf() ? 1 : 0; }
@@ -166,7 +167,7 @@ class LeafSplitting {
     return wanted;
   }
 
-  // What is left of the error of a leaf in a part with this share of its area, where light changes linearly.
+  // The error that remains in a part with this share of a leaf's area, if the light is linear.
   [[nodiscard]] static double part_of(double error, double share) { return error * share * share; }
   [[nodiscard]] bool worth(const Wanted& leaf) const { return leaf.error > least_error_ && hierarchy_[leaf.node].area > least_area_; }
 
@@ -181,7 +182,7 @@ class LeafSplitting {
 
   std::uint64_t split(std::vector<Wanted> wanted) {
     std::uint64_t count = 0;
-    for (std::size_t k = 0; k < wanted.size(); ++k) {  // it grows
+    for (std::size_t k = 0; k < wanted.size(); ++k) {  // the list grows
       const Wanted leaf = wanted[k];
       if (at_blade(scene_, leaf.node) || !subdivide(scene_.surfaces, hierarchy_, leaf.node, scene_.meshing)) { continue; }
       ++count;
@@ -199,9 +200,9 @@ class LeafSplitting {
   const std::vector<double>& area_;
   Links& links_;
   CoarseLight light_;
-  double least_error_ = 0.0;  // squared, of a leaf that is split
+  double least_error_ = 0.0;  // squared error from which on a leaf is split
   double least_area_ = 0.0;
-  std::vector<char> candidate_;  // of each node
+  std::vector<char> candidate_;  // by node
 };
 
 }  // namespace detail

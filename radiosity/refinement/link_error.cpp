@@ -55,14 +55,14 @@ HALFLIGHT_INLINE ErrorEstimation estimate_link_errors(const AlikeErrors& alike, 
   return result;
 }
 
-// A sample of links that are measured.
+// A sample of links for measuring.
 struct LinkSample {
-  std::vector<std::uint32_t> from;  // indices of the links
+  std::vector<std::uint32_t> from;  // indices of the links from which it is drawn
   MeasuredLinks links;
-  std::vector<double> each;  // links that one stands for
+  std::vector<double> each;  // number of links that each sampled one represents
 };
 
-// Links in two tables, as if in one.
+// Two tables of links with a common index.
 struct LinkTables {
   std::array<std::span<const Link>, 2> tables;
 
@@ -72,7 +72,8 @@ struct LinkTables {
   }
 };
 
-// Links that hold a light at an end; others of the first table; others of the second one, which rays made. Nothing is measured yet.
+// Divides the links into: those with a light at one end, others of the first table, others of the second one (made by rays). Nothing is
+// measured yet.
 [[nodiscard]] HALFLIGHT_INLINE std::array<LinkSample, 3> lights_and_others(const DiscreteScene& scene, const LinkTables& links) {
   const Hierarchy& hierarchy = scene.hierarchy;
   const auto emits = [&](std::uint32_t i) {
@@ -85,9 +86,9 @@ struct LinkTables {
   return samples;
 }
 
-// Of `sample.from`, the sums from the first to each of the probabilities by which links are drawn, 1 in all: a third by the scale of the
-// squared error, a third by the most that it can be, and a third evenly. Of links drawn evenly the few that carry most would be missed, or
-// stand for hundreds that carry next to nothing.
+// Cumulative probabilities of the links in `sample.from`, with a sum of 1: a third by the scale of the squared error, a third by its
+// upper bound, a third uniform. A purely uniform sample would miss the few links that carry most of the light, or weight them hundreds of
+// times.
 HALFLIGHT_INLINE std::vector<double> drawn_by(const LinkErrorTerms& errors, const LinkTables& links, const LinkSample& sample) {
   std::vector<LinkErrorTerms::Carried> carried(sample.from.size());
   LinkErrorTerms::Carried all;
@@ -106,8 +107,8 @@ HALFLIGHT_INLINE std::vector<double> drawn_by(const LinkErrorTerms& errors, cons
   return sums;
 }
 
-// What the kernel of a link leaves over an end, where the other end lies beside it. Leaves have no slope; below an inner node that of the
-// link counts, be it right or not.
+// Sets the variation over an end by contour integral, for adjacent patches. Leaves have no gradient; on an inner node the deviation of
+// the link's actual gradient counts as error.
 HALFLIGHT_INLINE void by_contour(const DiscreteScene& scene, std::uint32_t i, std::uint32_t other, const glm::dvec3& slope,
                                  LinkVariation::End& end) {
   const Patch& patch = scene.patches[i];
@@ -117,8 +118,8 @@ HALFLIGHT_INLINE void by_contour(const DiscreteScene& scene, std::uint32_t i, st
   end.rest = static_cast<float>(std::sqrt(light.rest * light.rest + off));
 }
 
-// Measures `most` of the links at most: all, or those in whose part of 0 to 1 one of as many equal steps ends (systematic sampling; Madow
-// 1949). The exchange stays as it is.
+// Measures at most `most` links: all of them, or a systematic sample (Madow 1949) by their cumulative probability. Leaves the exchange
+// unchanged.
 HALFLIGHT_INLINE void measure_sample(const DiscreteScene& scene, const LinkErrorTerms& errors, const LinkTables& links, std::size_t most,
                                      LinkSample& sample) {
   std::vector<std::uint32_t> chosen;
@@ -128,7 +129,7 @@ HALFLIGHT_INLINE void measure_sample(const DiscreteScene& scene, const LinkError
   } else {
     const std::vector<double> sums = drawn_by(errors, links, sample);
     const double step = sums.back() / static_cast<double>(most);
-    std::size_t steps = 0;  // that end before link i
+    std::size_t steps = 0;  // steps taken before link i
     for (std::size_t i = 0; i < sums.size(); ++i) {
       const std::size_t before = steps;
       while (steps < most && (static_cast<double>(steps) + 0.5) * step < sums[i]) { ++steps; }
@@ -151,7 +152,7 @@ HALFLIGHT_INLINE void measure_sample(const DiscreteScene& scene, const LinkError
   });
 }
 
-// The squared errors of all the links of which these are a sample.
+// The sum of the squared errors of all links that the sample represents.
 HALFLIGHT_INLINE double sum_over(const LinkSample& sample, const ErrorEstimation& errors) {
   double sum = 0.0;
   for (std::size_t i = 0; i < errors.links.size(); ++i) {
@@ -160,12 +161,12 @@ HALFLIGHT_INLINE double sum_over(const LinkSample& sample, const ErrorEstimation
   return sum;
 }
 
-// The errors of leaves, from samples of the links.
+// The errors of leaves, estimated from samples of the links.
 HALFLIGHT_INLINE LeafErrors sampled_leaf_errors(const DiscreteScene& scene, std::initializer_list<const LinkSample*> samples,
                                                 std::size_t all_links, const std::vector<Color>& radiosity) {
   const Hierarchy& hierarchy = scene.hierarchy;
   const std::vector<double>& area = scene.exposure.area;
-  // The part of a linear variation over a node that is left over its leaves: the sum of the squares of their areas over that of its own.
+  // Share of a linear variation over a node that remains within its leaves: the sum of their squared areas over its own squared area.
   std::vector<double> over_leaves(hierarchy.size(), 0.0);
   for (std::size_t i = hierarchy.size(); i-- > 0;) {
     const Node& node = hierarchy[i];
@@ -173,7 +174,7 @@ HALFLIGHT_INLINE LeafErrors sampled_leaf_errors(const DiscreteScene& scene, std:
     for (std::uint32_t k = node.first_child; k < node.first_child + node.child_count; ++k) { over_leaves[i] += over_leaves[k]; }
   }
   LeafErrors leaves;
-  Links scaled;  // as if they were all
+  Links scaled;  // scaled to represent all links
   for (const LinkSample* sample : samples) {
     const auto arrives = [&](std::uint32_t i, std::uint32_t sender, double exchange, float linear, double each) {
       if (hierarchy[i].is_cluster() || !(area[i] > 0.0)) { return; }
@@ -188,7 +189,8 @@ HALFLIGHT_INLINE LeafErrors sampled_leaf_errors(const DiscreteScene& scene, std:
       arrives(link.q, link.p, static_cast<double>(link.exchange), variation.q.linear, sample->each[k]);
     }
   }
-  // A leaf that is a whole input face has no siblings; and where the sample is all the links, their gradients tell more.
+  // A leaf that is a whole input face has no siblings, so its gradient is used. If the sample contains all links, the gradients
+  // are exact enough for all leaves.
   LeafErrors by_gradients = estimate_leaf_errors(scene, scaled, radiosity);
   if (scaled.size() == all_links) { return by_gradients; }
   leaves.sum = variation_by_siblings(hierarchy, area, radiosity);
@@ -196,9 +198,10 @@ HALFLIGHT_INLINE LeafErrors sampled_leaf_errors(const DiscreteScene& scene, std:
   return leaves;
 }
 
-// The squared errors of all the pairs through which no segment came and of which these are a sample. One pair alone may let pass the share
-// m = 1 / 18 that 16 segments miss (Laplace's mean); most let nothing pass at all. As many segments once more tell of all pairs together
-// which share f passes in the mean, again by Laplace: f is no more than a few m in any of them, so the mean of f^2 is about m f.
+// The sum of the squared errors of all pairs whose segments were all blocked. A single pair may let pass the share m = 1/18 of the light
+// that 16 blocked segments leave possible (Laplace's mean), but most pairs let nothing pass. So each sampled pair is measured with as
+// many segments once more, which gives the mean share f of all pairs, again by Laplace. f is at most a few m for any pair, so the mean of
+// f^2 is about m f.
 [[nodiscard]] HALFLIGHT_INLINE double sum_over_unseen(const DiscreteScene& scene, const LinkSample& sample, const ErrorEstimation& errors) {
   const LinkEvaluator again = scene.evaluator.reseeded(scene.seed ^ 0x756e7365656eull);
   constexpr double one_round = segments_per_round;
@@ -219,12 +222,12 @@ HALFLIGHT_INLINE LeafErrors sampled_leaf_errors(const DiscreteScene& scene, std:
     passing += square * passes[i];
   }
   if (!(sum > 0.0)) { return 0.0; }
-  const double segments = one_round * sum * sum / squares;  // of equally important pairs
+  const double segments = one_round * sum * sum / squares;  // effective number for pairs of equal importance
   const double share = (segments * passing / sum + 1.0) / (segments + 2.0);
   return sum * share * (one_round + 2.0);
 }
 
-// What may pass where no segment did.
+// Adds the errors of pairs whose segments were all blocked.
 HALFLIGHT_INLINE void add_unseen(const DiscreteScene& scene, const PairSample& unseen, const AlikeErrors& alike,
                                  const std::vector<Color>& radiosity, ErrorEstimation& result) {
   Links pairs;
@@ -257,7 +260,8 @@ HALFLIGHT_INLINE ErrorEstimation sampled_estimate(const DiscreteScene& scene, co
   ErrorEstimation result;
   result.of_leaves = leaves.sum;
   const AlikeErrors alike{std::sqrt(evaluated.doubt.alike(scene.hierarchy, scene.exposure.area)), leaves.alike()};
-  // Row sums tell of evaluated links alone. Rays make thousands of links at a node, which lie at different places before it.
+  // The ratio from the row sums applies to evaluated links only. Rays make thousands of links at a node, at different places in
+  // front of it, which are independent.
   const AlikeErrors of_ray_links{1.0, leaves.alike()};
   for (const LinkSample* sample : {&of_lights, &others, &of_rays}) {
     const AlikeErrors& together = sample == &of_rays ? of_ray_links : alike;

@@ -1,25 +1,25 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The relative L2 error of a solution, estimated from what its links cannot express (LinkVariation) times the radiosity that they carry
-// (paper 4.4), and from what its leaves cannot. For p receiving from q, with the irradiance H = G B_q / A_p and the deviation
-// S = G s_q / A_p, s_q the standard deviation of B over q's leaves:
+// Estimates the relative L2 error of a solution (paper 4.4): from the variation that its links cannot express (LinkVariation) times the
+// radiosity that they carry, and from the variation over its leaves. For p receiving from q, with the irradiance H = G B_q / A_p and the
+// deviation S = G s_q / A_p, s_q the standard deviation of B over q's leaves:
 //
 //     e_p^2 = A_p rho^2 H^2 (rest_p^2 + shadow_p^2)                        reduced by splitting p
 //           + A_p rho^2 S^2 (rest_q^2 + shadow_q^2 + cross^2)              reduced by splitting q
 //           + A_p rho^2 (sampling B_q / A_p)^2                             reduced by splitting the larger
 //
-// summed over the channels, and the same for q receiving from p. What varies over a leaf is added to that (leaf_error.hpp).
+// summed over the channels, and likewise for q receiving from p. The variation over leaves is added (leaf_error.hpp).
 //
-// Links that lie at one node err alike, as in a corner of a room: their rest adds up as it is. Where only a sample of the links is looked
-// at, the row sums tell how much that makes (DoubtSum::alike), for light that is the same everywhere; of light that is not, the truth lies
-// between that and independence, and the geometric mean of both is taken. Where the gradients of different links cancel over the leaves,
-// as they do in a furnace, rests cancel by the same factor.
+// Links at one node err alike, as in a corner of a room, so their `rest` terms are added before squaring. If only a sample of the links
+// is measured, the ratio is taken from the row sums (DoubtSum::alike). These are for constant light; for varying light the truth lies
+// between that and independence, so the geometric mean of both is used. Where the gradients of different links cancel over the leaves, as
+// in a furnace, rests cancel by the same factor.
 //
-// A cluster shows other faces to each direction: there the mean of B^2 stands for the square of what it sends, the noise of sampling is
-// reduced by splitting the source, and the S of different links of one node add up as they are, for each mixes bright faces with dark ones
-// in the same way. The estimate of the whole is sqrt(sum of all e^2) over the norm of the reflected radiosity: all other errors of
-// different links count as independent. Errors that are passed on by further reflections are not followed.
+// A cluster shows different faces in each direction, so the mean of B^2 is used for the square of what it sends; the noise of sampling is
+// reduced by splitting the source; and the S terms of different links of one node are added before squaring, because each mixes bright
+// and dark faces in the same way. The total estimate is sqrt(sum of all e^2) over the norm of the reflected radiosity; other errors of
+// different links count as independent. The propagation of errors by further reflections is neglected.
 
 #include <array>
 #include <cmath>
@@ -42,33 +42,33 @@ namespace radiosity {
 
 namespace detail {
 
-// How much of the variation over a leaf is an error: all of it, or the part that a picture which interpolates still misses.
+// Share of the variation over a leaf that counts as error: all of it for constant display, half of it for a picture that interpolates.
 [[nodiscard]] constexpr double leaf_part(Reconstruction kind) { return kind >= Reconstruction::constant ? 1.0 : 0.5; }
 
-// All squared.
+// Squared errors.
 struct ErrorEstimation {
   std::vector<LinkError> links;
   double of_links = 0.0, of_leaves = 0.0;
-  double unseen = 0.0;  // part of the links: those through which no segment came
+  double unseen = 0.0;  // the part of of_links from links whose segments were all blocked
   double norm = 0.0;    // of the reflected radiosity
 
   [[nodiscard]] double sum(double part) const { return of_links + part * part * of_leaves; }
   [[nodiscard]] double relative(double part) const { return norm > 0.0 ? std::sqrt(sum(part) / norm) : 0.0; }
 };
 
-// The errors of links alone, and the norm.
+// Errors of links only, and the norm.
 ErrorEstimation estimate_link_errors(const AlikeErrors& alike, const DiscreteScene& scene, const MeasuredLinks& links,
                                      const std::vector<Color>& radiosity);
 
-// For links that were not made by BF-refinement, in two tables, and for pairs that were left out because no segment came through: from at
-// most 1024 of either that hold a light, 3072 others of each table, and 1024 other pairs, drawn by what they carry; they are measured now,
-// those between patches that lie beside each other by Lambert's contour. The second table was made by rays.
+// For links that were not made by BF-refinement, in two tables (the second made by rays), and for pairs left out because all segments
+// were blocked. Measures a sample, drawn by the light carried: at most 1024 of the links and of the left-out pairs that contain a light,
+// 3072 other links of each table, and 1024 other pairs. Links between adjacent patches are measured by Lambert's contour integral.
 ErrorEstimation sampled_estimate(const DiscreteScene& scene, const std::array<std::span<const Link>, 2>& links,
                                  const std::vector<Color>& radiosity, const EvaluateResult& evaluated);
 
-// Why the estimate is no bound, or nothing. It does not know what a segment never found, nor how errors grow when light that is wrong is
-// reflected again and again; a closed scene keeps its row sums, and what errs there has no mean. `unseen`: share of its square that is
-// due to links through which no segment came.
+// A sentence that says why the estimate is no bound, or nothing. The estimate does not include light that no segment found, nor the
+// growth of errors that are reflected repeatedly (a closed scene keeps its row sums, so its errors have no mean). `unseen`: share of its
+// square from links whose segments were all blocked.
 std::string estimate_doubt(const DiscreteScene& scene, Transport& transport, const std::vector<Color>& radiosity, double unseen,
                            bool closed);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The terms of the squared error of one link (link_error.hpp), from what was measured of it and the radiosity of its ends.
+// The terms of the squared error of one link (link_error.hpp), from its measured variation and the radiosity of its ends.
 
 #include <algorithm>
 #include <cmath>
@@ -24,7 +24,7 @@ namespace detail {
 
 // How errors of different links add up.
 struct AlikeErrors {
-  std::optional<double> across;  // inner nodes: squared errors over those of independent links; given where these are not all the links
+  std::optional<double> across;  // for inner nodes: squared error relative to independent links; set if only a sample of the links is given
   double at_leaves = 1.0;        // LeafErrors::alike()
 };
 
@@ -33,7 +33,7 @@ struct NodeLight {
   Color variance{0.0};  // over the leaves of the node
 };
 
-// `radiosity`: of every node, inner nodes area averages.
+// `radiosity`: by node; area averages for inner nodes.
 [[nodiscard]] inline std::vector<NodeLight> light_of_nodes(const Hierarchy& hierarchy, const std::vector<double>& area,
                                                            const std::vector<Color>& radiosity) {
   std::vector<NodeLight> light(hierarchy.size());
@@ -70,7 +70,7 @@ class LinkErrorTerms {
     }
   }
 
-  // To be called for all links before of() is called for any.
+  // Must be called for all links before of() is called for any.
   void add_to_nodes(const Link& link, const LinkVariation& measured) {
     const LinkVariation variation = possible(link, measured);
     const std::uint32_t p = link.p, q = link.q;
@@ -93,7 +93,7 @@ class LinkErrorTerms {
     const double g2 = square(link.exchange);
     const Color to_p = received(g2, link.p);
     const Color to_q = received(g2, link.q);
-    // At most 1: a link that lit each place from one other alone would pass on s_q itself.
+    // At most 1, which is reached if each place receives light from a single place of the other end and so has the full deviation s_q.
     const double cross = std::min(1.0, square(variation.cross));
     Terms terms{over(to_p, link.q, link.p, variation.p), over(to_q, link.p, link.q, variation.q)};
     terms.p += p.is_cluster() ? mixture(to_q, link.p, variation.p) * mixtures_[link.q]
@@ -109,8 +109,8 @@ class LinkErrorTerms {
     return terms;
   }
 
-  // By what a link carries, what share of a sample of links it should have: `squared`, the scale of its squared error, and `most`, the
-  // scale of the largest that it can have by possible().
+  // Importance of a link for drawing a sample: `squared`, the scale of its squared error, and `most`, the scale of its upper bound by
+  // possible().
   struct Carried {
     double squared = 0.0, most = 0.0;
   };
@@ -123,9 +123,9 @@ class LinkErrorTerms {
 
  private:
   [[nodiscard]] static double square(double x) { return x * x; }
-  // The form factor from each point of p to q lies in [0, 1]. So its mean square over p is at most its mean G / A_p, and its variance,
-  // relative to the square of that, at most A_p / G - 1. What is measured at a few points beside a common edge may be thousands of times
-  // that.
+  // Limits measured variations to possible values. The form factor from each point of p to q is in [0, 1], so its mean square over p is
+  // at most its mean G / A_p, and its relative variance at most A_p / G - 1. Measurements at few points beside a common edge may exceed
+  // that a thousand times.
   [[nodiscard]] LinkVariation possible(const Link& link, const LinkVariation& measured) const {
     LinkVariation result = measured;
     const double g = static_cast<double>(link.exchange);
@@ -140,23 +140,23 @@ class LinkErrorTerms {
   [[nodiscard]] const Color& rho(const Node& node) const {
     return node.is_cluster() ? of_clusters_[node.cluster] : scene_.reflectance[node.surface];
   }
-  // What node i reflects of a radiosity of 1, squared; g2: the exchange, squared.
+  // The squared radiosity that node i reflects of a radiosity of 1; g2: squared exchange.
   [[nodiscard]] Color received(double g2, std::uint32_t i) const {
     const Color r = rho(scene_.hierarchy[i]);
     return area_[i] > 0.0 ? g2 / area_[i] * r * r : Color{0.0};
   }
-  // Mean of B^2: a cluster shows other faces to each direction.
+  // Mean of B^2, because a cluster shows different faces in each direction.
   [[nodiscard]] Color bright(std::uint32_t from) const {
     return light_[from].mean * light_[from].mean + (scene_.hierarchy[from].is_cluster() ? light_[from].variance : Color{0.0});
   }
-  // Error by the wrong mixture of the faces of a cluster.
+  // Error from the wrong mixture of a cluster's faces.
   [[nodiscard]] double mixture(const Color& to, std::uint32_t from, const LinkVariation::End& end) const {
     return std::sqrt(glm::dot(to, light_[from].variance) * varies(end));
   }
   [[nodiscard]] double rest(const Color& to, std::uint32_t from, const LinkVariation::End& end) const {
     return static_cast<double>(end.rest) * std::sqrt(glm::dot(to, bright(from)));
   }
-  // What a link from `from` adds to the squared error over node i.
+  // The squared error over node i that a link from `from` adds.
   [[nodiscard]] double over(const Color& to, std::uint32_t from, std::uint32_t i, const LinkVariation::End& end) const {
     const double own = rest(to, from, end);
     const bool apart = scene_.hierarchy[i].leaf() || scene_.hierarchy[i].is_cluster();
@@ -169,7 +169,7 @@ class LinkErrorTerms {
   const std::vector<double>& area_;
   std::vector<NodeLight> light_;
   std::vector<Color> of_clusters_;  // mean reflectance
-  // Of each node, the sums over its links, which err alike there: by wrong mixtures of clusters' faces, and the rests.
+  // By node: sums over its links, which err alike: of the mixture errors, and of the rests.
   std::vector<double> mixtures_, rests_;
 };
 

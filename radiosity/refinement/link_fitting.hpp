@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// What links need when leaves are split below them once they are evaluated: gradients, because a leaf that becomes an inner node hands its
-// light down (links.hpp), and on curved objects exchanges that fit the areas, which are known better from finer leaves.
+// Adapts links when leaves below them are split after their evaluation: they need gradients, because a leaf that becomes an inner node
+// passes its light down (links.hpp), and on curved objects exchanges that match the areas, which are more accurate for finer leaves.
 
 #include <algorithm>
 #include <cstddef>
@@ -19,9 +19,9 @@
 
 namespace radiosity {
 
-// Calls set(link index, doubt) for each link between two patches that were leaves when it was made, where one of these is marked, after it
-// got its gradients: what the gradients cannot express over the children of either end. Of `marked` and `leaf` there is one a node; leaves
-// that were split since then are still called so by `leaf`. A run that is cancelled leaves the rest of the links without.
+// Sets the gradients of each link between two patches that were leaves when it was made, if one of these is marked, and then calls
+// set(link index, doubt); doubt: the variation over the children of either end that the gradients cannot express. `marked` and `leaf`: by
+// node; nodes split since the links were made still count as leaves in `leaf`. After cancellation the remaining links are left unchanged.
 template <class Set>
 void set_gradients_at(const DiscreteScene& scene, Links& links, const std::vector<char>& marked, const std::vector<char>& leaf,
                       const Set& set) {
@@ -47,15 +47,15 @@ void set_gradients_at(const DiscreteScene& scene, Links& links, const std::vecto
   }
 }
 
-// Fits the links as if they had been evaluated with the areas of now: those of curved leaves are sums over their children. `before`: areas
-// when they were evaluated.
+// Scales the links as if they had been evaluated with the current areas, which for curved leaves are sums over their children. `before`:
+// the areas at the time of evaluation.
 void fit_links(DiscreteScene& scene, Links& links, const std::vector<double>& before);
 
-// Has a leaf of a curved object an edge sharper than a right angle, as a blade has? A new vertex there lies off the edge of the leaf on
-// the other side, which stays whole where it is dark, and a face of the mesh between the two would show the wrong side.
+// Does a leaf of a curved object have an edge with an angle below 90 degrees, like a blade? A new vertex there would lie off the edge of
+// the leaf on the other side, which may stay unsplit in the dark, and a mesh face between the two would show the wrong side.
 [[nodiscard]] bool at_blade(const DiscreteScene& scene, std::uint32_t leaf);
 
-// Area of the lit faces (lit_faces.hpp) that are not buried, in the squared unit of the frame.
+// Weighted area of the lit faces (lit_faces.hpp) that are not buried, in squared units of the frame.
 [[nodiscard]] double lit_area(const DiscreteScene& scene);
 
 }  // namespace radiosity

@@ -44,7 +44,7 @@ class LinkSplitting {
 
   [[nodiscard]] LinkSplits operator()() {
     constexpr int generations = 4;
-    constexpr std::size_t few = 256;  // of so many links less than one: splitting it gains less than looking at all of them costs
+    constexpr std::size_t few = 256;  // if fewer than one link in so many is chosen, splitting gains less than examining all links costs
     LinkSplits result;
     for (int k = 0; k < generations && !scene_.control.cancelled(); ++k) {
       stuck_.resize(hierarchy_.size(), false);
@@ -60,16 +60,16 @@ class LinkSplitting {
   }
 
  private:
-  // A link that is split at one of its ends.
+  // A link to be split at one of its ends.
   struct Choice {
     std::size_t link = 0;
     bool at_p = true;
   };
   struct Wish {
     Choice choice;
-    double error = 0.0;  // of the patch, squared
+    double error = 0.0;  // squared error of the patch
   };
-  // A link at one of its ends, and the error that it causes there: RMS, in the unit of radiosity.
+  // One end of a link, and the RMS error that the link causes there, in the unit of radiosity.
   struct End {
     std::uint32_t node = no_node;
     bool at_p = true;
@@ -80,7 +80,7 @@ class LinkSplitting {
   [[nodiscard]] std::uint32_t split(const Choice& c) const { return c.at_p ? of_.links[c.link].p : of_.links[c.link].q; }
   [[nodiscard]] std::uint32_t other(const Choice& c) const { return c.at_p ? of_.links[c.link].q : of_.links[c.link].p; }
 
-  // Links of lamps' clusters are not made for parts of lamps.
+  // False also for lamps with clusters: links of lamp clusters are not made for parts of lamps.
   [[nodiscard]] bool may_split(std::uint32_t i) const {
     const Node& node = hierarchy_[i];
     if (node.is_cluster() || !(area_[i] > 0.0)) { return false; }
@@ -89,7 +89,7 @@ class LinkSplitting {
            !(scene_.lamp_exchange && scene_.lamps[node.surface]);
   }
 
-  // The ends of links at patches over which the error is too large, patch by patch.
+  // The ends of links at patches with too large an error, sorted by patch.
   [[nodiscard]] std::vector<End> find_ends(const CoarseLight& light, double least) const {
     const auto error = [&](std::uint32_t on, std::uint32_t from, float doubt) {
       return light.reflectance[hierarchy_[on].surface] * light.radiosity[from] * static_cast<double>(doubt);
@@ -116,7 +116,7 @@ class LinkSplitting {
     return ends;
   }
 
-  // The links that are split, in their order: where both ends ask for it, the end with the larger error.
+  // The links to be split, in order; if both ends are wanted, the end with the larger error.
   [[nodiscard]] std::vector<Choice> choose() const {
     const CoarseLight light = coarse_light(scene_, of_.links, 3);
     std::vector<Wish> wishes = find_wishes(share_ * share_ * light.reflected_square, light);
@@ -131,8 +131,8 @@ class LinkSplitting {
     return chosen;
   }
 
-  // At each patch over which the squared error is more than `least`, its largest links, until the others leave a quarter of that: by
-  // measurement, less takes three times the links for a third less error, and more leaves half of what could be gained.
+  // For each patch whose squared error exceeds `least`: its largest links, until the others amount to a quarter of that limit. By
+  // measurement, a smaller share takes three times the links for a third less error, and a larger one forgoes half of the gain.
   [[nodiscard]] std::vector<Wish> find_wishes(double least, const CoarseLight& light) const {
     constexpr double kept = 0.25;
     const std::vector<End> ends = find_ends(light, least);
@@ -150,7 +150,7 @@ class LinkSplitting {
     return wishes;
   }
 
-  // Whether there may be so many nodes and links.
+  // Are so many nodes and links within the limits?
   [[nodiscard]] bool fits(const std::vector<Choice>& chosen, LinkSplits& result) const {
     std::uint64_t nodes = hierarchy_.size(), opened = 0;
     std::vector<char> asked(hierarchy_.size(), 0);
@@ -175,7 +175,7 @@ class LinkSplitting {
     }
   }
 
-  // Splits the leaves at which links are split. Other links between leaves get their gradients there.
+  // Splits the leaves at which links are split. Their other links with leaves get gradients.
   void split_leaves(const std::vector<Choice>& chosen) {
     const std::size_t before = hierarchy_.size();
     std::vector<char> leaf(before), cut(before, 0);
@@ -215,7 +215,7 @@ class LinkSplitting {
     return pairs;
   }
 
-  // Replaces the links by links of the children. Returns how many; none once the run is cancelled.
+  // Replaces the links by links of the children. Returns the number of replaced links; 0 after cancellation.
   [[nodiscard]] std::uint64_t replace(const std::vector<Choice>& chosen) {
     NodePairs pairs = open(chosen);
     const std::vector<Decision> decisions = decide(
@@ -230,7 +230,7 @@ class LinkSplitting {
       if (decisions[i] >= first_seeing) { pairs[seeing++] = pairs[i]; }
     }
     pairs.resize(seeing);
-    Control quiet = scene_.control;  // the stage has reported that its links are there
+    Control quiet = scene_.control;  // the stage has already reported its links as complete
     quiet.progress = nullptr;
     Links made(scene_.budget.arrays);
     LinkDoubts doubts(scene_.budget.arrays);

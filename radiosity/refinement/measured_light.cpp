@@ -28,7 +28,7 @@ HALFLIGHT_INLINE MeasuredLight::MeasuredLight(DiscreteScene& scene, const std::v
   }
   scene.patches.extend(scene.threads);
   measure_nodes(faces);
-  double square = 0.0;  // times area
+  double square = 0.0;  // sum of squares times area
   for (const std::uint32_t i : faces) { square += hierarchy[i].area * scene.light_meshing->light_on(i).square; }
   const double share = 0.25 * light_epsilon;
   least_ = share * share * square;

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The opinion of F-refinement about pairs with a lamp where the light on the other node is measured (discontinuity/light_meshing.hpp), in
-// place of the light oracle's bounds. A node is split while its share of the relative L2 error is too large:
+// Decides in F-refinement about pairs with a lamp if the direct light on the other node has been measured
+// (discontinuity/light_meshing.hpp), instead of the light oracle's bounds. A node is split while its share of the relative L2 error is
+// too large:
 //
 //     RMS variation of the reflected direct light over the node * sqrt(area of the node / area of the scene)
 //         >  a quarter of light_epsilon * RMS of the reflected direct light over the scene
 //
-// A quarter, because the light oracle's bounds of a variation are several times too large as a rule. So n leaves that are split as far as
-// this asks err by sqrt n times that together.
+// The factor of a quarter is used because the light oracle's bounds of a variation are usually several times too large. n leaves that
+// just meet this limit have sqrt(n) times that error together.
 
 #include <cstdint>
 #include <vector>
@@ -22,17 +23,17 @@ namespace radiosity {
 
 class MeasuredLight {
  public:
-  // Nothing is measured, and there is no opinion, unless the scene has a LightMeshing. The scene must outlive this; its hierarchy holds
-  // clusters and input faces when it is made. `buried`: input faces that do not count; `scene_area` is that of the others.
+  // If the scene has no LightMeshing, nothing is measured and nothing decided. `scene` must outlive this; its hierarchy then holds only
+  // clusters and input faces. `buried`: input faces that do not count; `scene_area`: area of the others.
   MeasuredLight(DiscreteScene& scene, const std::vector<bool>& buried, double scene_area, double light_epsilon, double min_area);
 
-  // Of a pair with a lamp: the node on which the light is measured; else no_node.
+  // For a pair with a lamp: the node on which the light is measured; otherwise no_node.
   [[nodiscard]] std::uint32_t receiver(const NodePair& pair) const;
-  // Is the lamp's radiosity the same all over, so that a link takes it as a whole, however large the form factor is?
+  // Is the lamp's radiosity constant, so that a link can take the lamp as a whole, however large the form factor is?
   [[nodiscard]] bool takes_whole_lamp(const NodePair& pair) const;
-  // Measures what has not been yet.
+  // Measures the light for those of these pairs for which it is not known yet.
   void measure(const NodePairs& pairs);
-  // Of a pair with a receiver that was measured: split it, or link.
+  // For a pair whose receiver has been measured: split it, or link.
   [[nodiscard]] Decision operator()(const NodePair& pair) const;
 
  private:
@@ -40,7 +41,7 @@ class MeasuredLight {
 
   DiscreteScene* scene_;
   double min_area_;
-  double least_ = 0.0;  // variance times area that is too much
+  double least_ = 0.0;  // limit of variance times area
 };
 
 }  // namespace radiosity

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// What a study wants beside the solution of a run, to tell apart where its error comes from: the mesh with the reconstruction that
-// was not asked for, and what a dense solution finds on the very same leaves (dense.hpp). Neither counts in the times of the run.
+// What a study needs besides the solution of a run, to separate the sources of its error: the mesh with the other reconstruction, and a
+// dense solution on the same leaves (dense.hpp). Neither counts in the times of the run.
 
 #include <vector>
 
@@ -14,7 +14,7 @@ namespace radiosity {
 
 struct Comparison {
   Mesh other;
-  std::vector<Color> dense;  // W/m2, one a node, of leaves; empty when there were too many
+  std::vector<Color> dense;  // W/m2, by node, set for leaves; empty if there were too many
 };
 
 [[nodiscard]] constexpr Reconstruction other(Reconstruction kind) {

@@ -12,9 +12,10 @@ namespace radiosity {
 
 namespace detail {
 
-// The 97.5 % quantile of Student's distribution (Abramowitz and Stegun 26.7.5): within 1 % from 3 degrees of freedom on, too small below.
+// The 97.5 % quantile of Student's distribution (Abramowitz and Stegun 26.7.5): accurate to 1 % from 3 degrees of freedom on, too small
+// below.
 [[nodiscard]] inline double two_sided_95(double degrees) {
-  constexpr double x = 1.959963984540054;  // of the normal distribution
+  constexpr double x = 1.959963984540054;  // quantile of the normal distribution
   constexpr double first = (x * x * x + x) / 4.0, second = (5.0 * x * x * x * x * x + 16.0 * x * x * x + 3.0 * x) / 96.0;
   return x + first / degrees + second / (degrees * degrees);
 }
@@ -64,7 +65,7 @@ HALFLIGHT_INLINE std::optional<ErrorEstimate> ErrorSums::estimate() const {
   const auto n = static_cast<double>(square.size());
   const double noise_of_mean = std::sqrt(m->variance / n);
   const double lean = m->skewness / std::sqrt(n);
-  const auto quantile = [&](double x) {  // of (estimate - truth) / noise, where x is that of the normal distribution
+  const auto quantile = [&](double x) {  // quantile of (estimate - truth) / noise, for the quantile x of the normal distribution
     return std::abs(lean) > 1e-6 ? 3.0 / lean * (std::cbrt(1.0 + lean * (x - lean / 6.0)) - 1.0) : x;
   };
   const double two_sided = detail::two_sided_95(std::max(1.0, m->equal_points - 1.0));
@@ -73,9 +74,9 @@ HALFLIGHT_INLINE std::optional<ErrorEstimate> ErrorSums::estimate() const {
   result.relative_l2 = root(m->ratio);
   result.low = root(m->ratio - noise_of_mean * quantile(two_sided));
   result.high = std::max(result.relative_l2, root(m->ratio - noise_of_mean * quantile(-two_sided)));
-  // An error that is lost in the noise is not known to be smaller than the noise: a mean that chance took below 0 would say so.
+  // If noise hides the error, the error is not known to be smaller than the noise, even if chance has made the estimated mean negative.
   if (result.low == 0.0) { result.high = std::max(result.high, root(std::max(0.0, m->ratio) + two_sided * noise_of_mean)); }
-  // d sqrt(x) = dx / (2 sqrt(x)); where the error is lost in the noise, the noise itself bounds it.
+  // d sqrt(x) = dx / (2 sqrt(x)); if noise hides the error, the noise itself is the bound.
   result.standard_error = m->ratio > noise_of_mean ? 0.5 * noise_of_mean / result.relative_l2 : std::sqrt(noise_of_mean);
   return result;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Memory that runs out as an outcome.
+// Returns running out of memory as an outcome instead of an exception.
 
 #include <new>
 #include <optional>
@@ -13,8 +13,8 @@ namespace radiosity {
 
 namespace detail {
 
-// Calls `attempt`, which returns an Outcome or the like of it; memory that runs out in it, here or on another thread, is an outcome in a
-// program that is compiled with exceptions.
+// Calls `attempt`, which returns an Outcome or a similar struct. If memory runs out in it, on this or another thread, returns
+// Failure::Kind::out_of_memory; only in a program compiled with exceptions.
 template <class Attempt>
 [[nodiscard]] auto unless_out_of_memory(const Attempt& attempt) -> decltype(attempt()) {
 #if defined(__cpp_exceptions)
@@ -26,7 +26,7 @@ template <class Attempt>
   try {
     outcome.failure.sentences.emplace_back(
         "the system has no more memory for this run; a larger epsilon, min_area, target or error needs less");
-  } catch (const std::bad_alloc&) {}  // not even for a sentence
+  } catch (const std::bad_alloc&) {}  // no memory even for the sentence
   return outcome;
 #else
   return attempt();

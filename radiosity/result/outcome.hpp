@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// What a run gives back.
+// The result of a run.
 
 #include <optional>
 #include <string>
@@ -19,27 +19,27 @@
 namespace radiosity {
 
 struct Solution {
-  Mesh mesh;                    // positions in the scene's own coordinates
-  std::optional<Mesh> refined;  // the same light in finer faces (Options::mesh_error), where that was needed
+  Mesh mesh;                    // positions in scene coordinates
+  std::optional<Mesh> refined;  // the same light on finer faces (Options::mesh_error), if that was needed
   Audit audit;
 
-  // The solution from which the mesh was made, in the coordinates of the frame.
+  // The solution from which the mesh was made, in coordinates of the frame.
   Frame frame;
   Hierarchy hierarchy;
   Links links;
-  Links ray_links;               // made of stored rays, when light between surfaces that do not shine goes by these
-  std::vector<double> area;      // exposed, one a node
-  std::vector<double> row_sum;   // of the system that was solved, one a node; 0 at inner nodes
-  std::vector<Color> radiosity;  // W/m2, one a node
+  Links ray_links;               // made of stored rays, if these carry the light between surfaces that are not lamps
+  std::vector<double> area;      // exposed area, by node
+  std::vector<double> row_sum;   // of the system that was solved, by node; 0 at inner nodes
+  std::vector<Color> radiosity;  // W/m2, by node
 
-  std::optional<Comparison> comparison;  // when asked for
+  std::optional<Comparison> comparison;  // if requested
 
-  // The mesh that shows the light best: `refined` where there is one, else `mesh`.
+  // The mesh with the best light: `refined` if it exists, otherwise `mesh`.
   [[nodiscard]] const Mesh& shown() const { return refined ? *refined : mesh; }
 };
 
 struct Failure {
-  // out_of_memory: the system has no more, or the run would need more than Options::memory.
+  // out_of_memory: an allocation failed, or the run would need more than Options::memory.
   enum class Kind { invalid_scene, invalid_options, cancelled, out_of_memory };
   Kind kind = Kind::invalid_scene;
   std::vector<std::string> sentences;
@@ -47,7 +47,7 @@ struct Failure {
 
 struct Outcome {
   std::optional<Solution> solution;
-  Failure failure;  // when there is no solution
+  Failure failure;  // if there is no solution
 };
 
 namespace detail {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// A run in the scene's own unit of light (light_unit.hpp), whose result is told in W/m2. Every field that holds light is named here.
+// Runs a solver in the scene's own unit of light (light_unit.hpp) and converts the result to W/m2. Every result field with light must be
+// converted here.
 
 #include <string>
 #include <utility>
@@ -16,7 +17,7 @@ namespace radiosity {
 
 namespace detail {
 
-// What is in the unit becomes W/m2; false when the light is more than a double holds.
+// Convert from the unit to W/m2; return false if a value exceeds the range of double.
 [[nodiscard]] bool to_watts(Mesh& mesh, const LightUnit& unit);
 [[nodiscard]] bool to_watts(Solution& solution, const LightUnit& unit);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The times of the stages of a run.
+// Measures the times of the stages of a run.
 
 #include <chrono>
 #include <ctime>
@@ -28,10 +28,10 @@ class Stopwatch {
   std::clock_t cpu_ = std::clock();
 };
 
-// Adds the times of one round to those of the rounds before it, stage by stage.
+// Adds the times of a round to the totals, stage by stage.
 void add_times(std::vector<StageTime>& total, const std::vector<StageTime>& round);
 
-// The total, of which neither the audit nor a comparison is a part.
+// Sets the total times, which exclude the audit and comparisons.
 void sum_times(Audit& audit);
 
 }  // namespace detail

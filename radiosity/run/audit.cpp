@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 
-// Stage: the error of the solution, by path tracing (audit/).
+// Stage: measures the error of the solution by path tracing (audit/).
 
 #include <algorithm>
 #include <cstdint>
@@ -26,7 +26,7 @@ namespace radiosity {
 
 namespace detail {
 
-// Fills in the errors of the solution, whose meshes are still in the frame.
+// Sets the errors of the solution, whose meshes are still in the frame.
 HALFLIGHT_INLINE void measure_errors(Run& run) {
   const Options& options = run.options;
   const Control& control = run.scene.control;
@@ -42,11 +42,11 @@ HALFLIGHT_INLINE void measure_errors(Run& run) {
     Mesh shown = solution.mesh;
     to_scene(shown, solution.frame);
     audit.picture_error = control.picture_error(shown, solution.frame, goal);
-    // The error over all surfaces decides nothing then: until the picture is good enough, a little of it will do.
+    // If the picture decides, the error over all surfaces needs little effort until the picture is good enough.
     const bool last = audit.picture_error && audit.picture_error->error.within(*options.error);
     goal = last ? to_know : AuditGoal{options.audit_points / 4, rays_worth(audit) / 4};
   }
-  // What steers the next round must not depend on the target: nor may this.
+  // Aiming affects what plans the next round, so whether it is tried must not depend on the target.
   const AuditGoal any_target{0, options.error ? rays_worth(audit) : to_know.rays};
   if (any_target.among_rays_of(audit.ray_work).rays >= least_rays_to_aim) {
     audit.audit_rays += meter.aim(run.scene.surfaces, run.scene.threads);
@@ -62,7 +62,7 @@ HALFLIGHT_INLINE void measure_errors(Run& run) {
     audit.audit_rays += to.rays - before;
     return complete;
   };
-  if (goal.rays_to_steer > 0) {  // before all else, so that its points are the same ones for any target
+  if (goal.rays_to_steer > 0) {  // first, so that its points are the same for any target
     SurfaceError steering;
     if (!measure(steering_points, steering_paths(goal), steering)) { return; }
     audit.steering_error = sums(steering).estimate();
@@ -76,8 +76,8 @@ HALFLIGHT_INLINE void measure_errors(Run& run) {
   audit.audit_points = measured.points();
 }
 
-// Says where the estimate from links is more than three times too small or too large for what path tracing found, whatever the interval
-// around that: a wide one must not excuse the estimate. Of an error that is lost in the noise only the upper end is known.
+// A sentence if the error found by path tracing differs from the links' estimate by more than a factor of three, whatever its interval,
+// because a wide interval must not excuse the estimate. If noise hides the error only the upper end of its interval is used.
 HALFLIGHT_INLINE std::string contradiction(const std::optional<double>& estimate, const std::optional<ErrorEstimate>& measured,
                                            std::uint64_t points) {
   constexpr double most = 3.0;
@@ -94,7 +94,7 @@ HALFLIGHT_INLINE std::string contradiction(const std::optional<double>& estimate
   return text;
 }
 
-// Has BF-refinement met its target, by its own estimate and, where there is one, by the audit?
+// Checks whether BF-refinement has met its target, by its own estimate and, if there is one, by the audit.
 HALFLIGHT_INLINE void check_target(Run& run) {
   Audit& audit = run.solution.audit;
   const std::optional<ErrorEstimate>& error = run.options.reconstruction != Reconstruction::none ? audit.surface_error : audit.leaf_error;
@@ -118,7 +118,7 @@ HALFLIGHT_INLINE std::optional<Failure> audit(detail::Run& run) {
     if (control.picture_error) { audit.picture_error = PictureError{}; }
   } else if (options.audit_points > 0 && plan.traceable && !run.stopped()) {
     detail::measure_errors(run);
-    // A mesh in gathered light is not what the links give.
+    // The estimate is for the light of the links, so it is not compared with the error of a mesh in gathered light.
     const std::string of_picture =
         run.solution.refined ? std::string{} : detail::contradiction(audit.estimated_error, audit.surface_error, audit.audit_points);
     const std::string of_leaves = detail::contradiction(audit.estimated_leaf_error, audit.leaf_error, audit.audit_points);

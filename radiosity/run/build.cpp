@@ -36,7 +36,7 @@ namespace radiosity {
 
 namespace detail {
 
-// Input faces.
+// Number of input faces that emit.
 [[nodiscard]] HALFLIGHT_INLINE std::uint64_t faces_that_shine(const std::vector<Surface>& surfaces, const std::vector<Color>& emission) {
   std::uint64_t count = 0;
   for (const Surface& surface : surfaces) {

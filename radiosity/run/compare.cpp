@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 
-// Stages for studies: the same leaves with all pairs of them, and the other reconstruction.
+// Stages for studies: a solution with all pairs of the same leaves, and the mesh of the other reconstruction.
 
 #include <cstdint>
 #include <optional>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 
-// Stage: what of each patch is not buried, and which surfaces lose no light where the scene is not proven closed.
+// Stage: measures the exposed part of each patch, and finds closed parts if the scene is not proven closed.
 
 #include <optional>
 #include <string>

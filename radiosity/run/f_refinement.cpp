@@ -28,30 +28,31 @@ namespace radiosity {
 
 namespace detail {
 
-// Fineness::reflected for a share of the mean emission that is reflected. By measurement: scenes that are open to the sky keep about what
-// they cost, and light through a window, most of it within the edges of a few bright places, is as exact as theirs. Below a hundredth it
-// falls as the share does, so that what a lamp sends elsewhere changes nothing. It rises as the share does where a lamp lights but a spot
-// of a large scene.
+// Fineness::reflected, from the reflected light as a share of the mean emission. By measurement: scenes open to the sky keep about their
+// cost, and light through a window, most of it at the edges of a few bright places, becomes as accurate as theirs. Below a share of 0.01
+// the result decreases in proportion, so that light which a lamp sends elsewhere has no influence; above `bright`, where a lamp lights
+// only a spot of a large scene, it increases in proportion.
 [[nodiscard]] HALFLIGHT_INLINE double brightness_of_reflected(double share) {
   constexpr double dim = 0.01, bright = 16.0;
   if (share > bright) { return share / bright; }
   return std::min(1.0, std::pow(4.0 * std::max(dim, share), 1.25)) * std::min(1.0, share / dim);
 }
 
-// Bright spots beside lamps, which the picture may not show, raise the RMS of the scene: a picture that is darker gains nothing by that.
-// Where it is darker than the mean, as a room is that a sky lights through a door, its light comes in at a few places, which are small
-// for the scene and must be found. With 1 rooms of a hundredth of the light outside err by 26 %; with 30 the dark end of
-// a hall is up to twice as bright as it should be (sky_rooms_test), with this limit by a third.
+// Limit of the contrast of scene and picture (importance.hpp). Bright spots beside lamps, which the picture may not show, raise the RMS of
+// the scene, and a darker picture would gain nothing by that. If the picture is darker than the mean, as in a room that a sky lights
+// through a door, its light enters at a few places, which are small relative to the scene and must be found. With a limit of 1, rooms with
+// a hundredth of the light outside have an error of 26 %; with 30, the dark end of a hall is up to twice too bright (sky_rooms_test); with
+// this limit, by a third.
 inline constexpr double most_contrast = 120.0;
 
-// For the picture of the camera that is all that counts, if there is one.
+// The importance of nodes for the picture of the camera, if the picture is all that counts.
 [[nodiscard]] HALFLIGHT_INLINE Importance importance_of_view(const Run& run) {
   const DiscreteScene& scene = run.scene;
   if (!scene.control.viewpoint || !run.solution.audit.reflected_share) { return {}; }
   ViewPaths paths = view_paths(scene, *run.tracer, *scene.control.viewpoint);
   if (paths.points.empty()) { return {}; }
   const LitFaces lit{scene.view(), scene.reflectance, scene.emission, buried_nodes(scene.surfaces, scene.hierarchy)};
-  // A picture whose paths have met no light at all is as dark as can be told.
+  // A picture for which no path has met any light counts as darker than the limit.
   const auto contrast_to = [&](double share) {
     return paths.reflected > 0.0 ? std::pow(share * lit.mean_emission() / paths.reflected, 2.0) : most_contrast;
   };
@@ -65,7 +66,7 @@ HALFLIGHT_INLINE double lit_part(const Run& run) {
   return run.rays.cast && share > least_share_beside_lamps ? std::pow(least_share_beside_lamps / share, 2.0) : 1.0;
 }
 
-// With the thresholds of now.
+// With the current thresholds.
 [[nodiscard]] HALFLIGHT_INLINE RefineResult refined_by_forms(Run& run) {
   const Audit& audit = run.solution.audit;
   Fineness fineness{audit.epsilon, audit.min_area * lit_part(run), audit.light_epsilon};
@@ -98,7 +99,7 @@ HALFLIGHT_INLINE void hurry(Run& run, double epsilon) {
   if (epsilon <= run.options.epsilon) { return; }
   audit.coarsened = true;
   audit.epsilon = epsilon;
-  audit.min_area = std::max(run.options.min_area, 2.4 * epsilon * epsilon);  // as in the rounds to an error target
+  audit.min_area = std::max(run.options.min_area, 2.4 * epsilon * epsilon);  // the same relation as in the rounds to an error target
   audit.light_epsilon = std::max(run.options.light_epsilon.value_or(0.0), 0.25 * epsilon);
 }
 
@@ -106,7 +107,7 @@ HALFLIGHT_INLINE void refine_coarsely(Run& run) {
   RefineResult lost = std::exchange(run.refined, {});
   lost.linked = {};
   const RayCount rays = lost.rays;
-  // Half of an epsilon takes some four times as many questions, and the links that are made then take about twice as long as these.
+  // Halving epsilon takes some four times as many questions, and the links made then take about twice as long as these.
   constexpr std::uint64_t worth = 100;
   double epsilon = soon_made;
   for (;;) {

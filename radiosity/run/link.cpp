@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 
-// Stage: form factors and visibility of the links of F-refinement (paper 4.3), and links of stored rays.
+// Stage: computes form factors and visibility of the links of F-refinement (paper 4.3), and makes links of stored rays.
 
 #include <algorithm>
 #include <cmath>
@@ -44,7 +44,7 @@ namespace detail {
     return Failure{Failure::Kind::out_of_memory,
                    {too_much_memory(spacing.too_large, scene.budget.allowed, "a larger epsilon or min_area needs less")}};
   }
-  // Where little is lit few rays meet what shines, so their noise is larger.
+  // If little of the scene is lit few rays meet light, so the noise would be larger: cast more.
   const double more = std::min(4.0, 1.0 / std::sqrt(lit_part(run)));
   const std::vector<std::uint32_t> counts = ray_counts(scene, spacing.casters, more * rays_per_node(audit.epsilon));
   const std::uint64_t rays = std::accumulate(counts.begin(), counts.end(), std::uint64_t{0});
@@ -65,8 +65,9 @@ namespace detail {
   return std::nullopt;
 }
 
-// Whether links may be split once they are evaluated: where light goes by stored rays those of lamps alone are there, which the light
-// oracle has split; leaves that were cut along the edges of shadows stay as they are. Says so in run.refined when memory does not suffice.
+// May links be split once they are evaluated? Not if other light goes by stored rays, because then only links of lamps exist, for which
+// the light oracle has already split; and not with leaves that were cut along shadow edges, which stay as they are. If memory does not
+// suffice, run.refined.too_large is set.
 [[nodiscard]] HALFLIGHT_INLINE bool may_split_links(Run& run, std::uint64_t links) {
   const DiscreteScene& scene = run.scene;
   if (run.rays.cast || scene.light_meshing || run.stopped()) { return false; }
@@ -75,7 +76,7 @@ namespace detail {
   return run.refined.too_large == 0;
 }
 
-// The links that refinement has chosen.
+// Evaluates the links chosen by refinement.
 HALFLIGHT_INLINE void link_by_forms(Run& run) {
   DiscreteScene& scene = run.scene;
   if (run.solution.audit.clusters > 0) { scene.shown = scene.exposed_shown(); }
@@ -96,11 +97,12 @@ HALFLIGHT_INLINE void split_links(Run& run) {
   const Audit& audit = run.solution.audit;
   run.link_splits = split_links_by_light(run.scene, {run.refined, run.solution.links, doubts, run.evaluated},
                                          {audit.epsilon, audit.light_epsilon, audit.min_area});
-  // Without some of its splits a run would differ from one that asks for its thresholds and may take more.
+  // If some of the splits did not fit, the result would differ from that of a run with these thresholds and more memory; so
+  // this counts as a shortage.
   run.refined.too_large = run.link_splits.too_large;
 }
 
-// Leaves that were cut along the edges of shadows stay as they are.
+// Splits leaves by their light. Leaves cut along shadow edges stay as they are.
 HALFLIGHT_INLINE void split_leaves_once_more(Run& run) {
   DiscreteScene& scene = run.scene;
   const Audit& audit = run.solution.audit;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 
-// Stage: from one radiosity a leaf to colours at the half-edges (paper 4.5).
+// Stage: computes the colours of the half-edges from the leaves' radiosities (paper 4.5).
 
 #include <optional>
 
@@ -25,7 +25,7 @@ HALFLIGHT_INLINE std::optional<Failure> reconstruct(detail::Run& run) {
   if (options.mesh_error) { run.leaf_faces = scene.surfaces; }
   const bool constant = options.reconstruction >= Reconstruction::constant;
   run.t_vertices = (!constant || !scene.plan.shortcuts) && eliminate_t_vertices(scene.surfaces) > 0;
-  if (options.error && !scene.control.picture_error && run.f_refined()) {  // one step from E
+  if (options.error && !scene.control.picture_error && run.f_refined()) {  // one Jacobi step from E: the light that was reflected once
     const ColorSolution once =
         solve_channels(*run.transport, run.transport->area(), surface_light(scene), {Solver::jacobi, options.residual, 1});
     run.direct = run.picture(once.radiosity, options.reconstruction);

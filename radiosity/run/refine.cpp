@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 
-// Stage: patches are split and links chosen (paper 4.3, 4.4).
+// Stage: splits patches and chooses links (paper 4.3, 4.4).
 
 #include <cstdint>
 #include <optional>
@@ -57,7 +57,7 @@ HALFLIGHT_INLINE std::optional<Failure> refine(detail::Run& run) {
   } else if (run.f_refined()) {
     if (budget.solved != nullptr) { *budget.solved = 1; }
     detail::refine_by_forms(run);
-    if (budget.solved != nullptr && run.refined.pairs_tested == 0) { *budget.solved = 0; }  // the input faces alone are too many
+    if (budget.solved != nullptr && run.refined.pairs_tested == 0) { *budget.solved = 0; }  // even the input faces alone are too many
     if (run.refined.cancelled && run.refined.generations > 0) { detail::refine_coarsely(run); }
   } else if (!budget.allows({run.scene.hierarchy.size()})) {
     run.refined.too_large = budget.peak({run.scene.hierarchy.size()});

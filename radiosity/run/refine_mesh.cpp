@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 
-// Stage: a mesh in gathered light, split until it shows that light as well as it was asked for (mesh_refiner.hpp). The solution and its own
-// mesh stay as they are.
+// Stage: makes a mesh in gathered light and splits it until it shows that light as accurately as requested (mesh_refiner.hpp). The
+// solution and its own mesh do not change.
 
 #include <algorithm>
 #include <cmath>
@@ -32,8 +32,8 @@ namespace radiosity {
 
 namespace detail {
 
-// As many faces as memory allows, and not more than other programs like to open. Of each face: its share of two BReps (800 bytes), where it
-// is looked at (900) and two meshes (600).
+// The limit of faces: what memory allows, and at most what other programs open readily. Bytes per face: its share of two BReps (800),
+// test points (900), and two meshes (600).
 [[nodiscard]] HALFLIGHT_INLINE std::uint64_t most_mesh_faces(const Run& run) {
   constexpr std::uint64_t most = 1'000'000, bytes = 2300;
   const MemoryBudget& budget = run.scene.budget;
@@ -42,26 +42,27 @@ namespace detail {
   return std::min(most, (budget.allowed - std::min(budget.allowed, held)) / bytes);
 }
 
-// What the outlines of the mesh alone make wrong in the picture, relative L2.
+// The error of the picture caused by the mesh's outlines alone, relative L2.
 [[nodiscard]] HALFLIGHT_INLINE double outline_error(const MeshRefiner& refiner, const MeshErrorMeter& meter) {
   const double square = meter.square();
   return square > 0.0 ? std::sqrt(refiner.outlines() / square) : 0.0;
 }
 
-// The error of the colours, and at the outlines. Nothing is left to chance at the latter.
+// Combines the error of the colours with that at the outlines, which is not random.
 [[nodiscard]] HALFLIGHT_INLINE ErrorEstimate with_outlines(const ErrorEstimate& colours, double outlines) {
   const double all = std::hypot(colours.relative_l2, outlines);
   const double slope = all > 0.0 ? colours.relative_l2 / all : 1.0;
   return {all, slope * colours.standard_error, std::hypot(colours.low, outlines), std::hypot(colours.high, outlines)};
 }
 
-// Splits until the error is at most `wanted` or nothing more can be split; false when cancelled. The error by the points of the faces says
-// how far to go, that of the meter, which knows what these points have missed, when to end.
+// Splits until the error is at most `wanted` or nothing can be split any more; returns false when cancelled. The error at the faces' own
+// test points decides how far to split; the independent error of the meter, which includes what these points have missed, decides when to
+// stop.
 HALFLIGHT_INLINE bool refine_to(double wanted, std::uint64_t most, const MeshErrorMeter& meter, MeshRefiner& refiner,
                                 MeshRefinement& refinement, std::optional<Mesh>& refined, const Frame& frame) {
   if (!refiner.gather()) { return false; }
   double goal = 0.9 * wanted;
-  double last = std::numeric_limits<double>::infinity();  // measured error
+  double last = std::numeric_limits<double>::infinity();  // measured error of the previous round
   int rounds_without_gain = 0;
   for (;;) {
     const bool wants_more = refiner.error() > goal;
@@ -80,7 +81,8 @@ HALFLIGHT_INLINE bool refine_to(double wanted, std::uint64_t most, const MeshErr
     refinement.faces_after = mesh.faces.size();
     refined = std::move(mesh);
     refinement.met = refinement.after.relative_l2 <= wanted;
-    // What is left is not between the corners, or in few places that the points of the faces have missed: then a finer mesh may meet them.
+    // The remaining error is not between the corners, or is in few places that the faces' test points have missed; a finer mesh may hit
+    // those.
     rounds_without_gain = refinement.after.relative_l2 > 0.95 * last ? rounds_without_gain + 1 : 0;
     last = refinement.after.relative_l2;
     if (refinement.met || wants_more || rounds_without_gain == 2 || !(refiner.error() > 0.0)) { return true; }
@@ -99,7 +101,7 @@ HALFLIGHT_INLINE std::optional<Failure> refine_mesh(detail::Run& run) {
   Mesh shown = run.solution.mesh;
   detail::to_scene(shown, scene.frame);
   const FinalGather light{scene.input, shown, scene.frame};
-  constexpr std::uint64_t points = 2000;  // their choice makes the estimate uncertain by a tenth of itself, where few edges of shadows err
+  constexpr std::uint64_t points = 2000;  // their choice makes the estimate uncertain by a tenth of itself if few shadow edges have errors
   const MeshErrorMeter meter{scene.input, light, shown, points, scene.seed, scene.threads, scene.control};
   if (const std::optional<ErrorEstimate> colours = meter.measure(shown)) {
     Meshing meshing = scene.meshing;

@@ -34,7 +34,7 @@ HALFLIGHT_INLINE Run::Run(const Scene& input, const Options& with, const Control
 }
 
 HALFLIGHT_INLINE std::optional<Failure> Run::prepare_scene() {
-  // Each input surface has a node, also one that is covered: where these are too many, nothing need be made to know it.
+  // Each input surface has a node, even if it is covered. If these alone are too many, the run is refused before anything is made.
   MemoryBudget::Counts least;
   for (const SceneObject& object : scene.input.objects) { least.nodes += object.shape ? object.shape->sheet_count() : 0; }
   if (!scene.budget.allows(least)) { return Failure{Failure::Kind::out_of_memory, {too_large(*this, scene.budget.peak(least))}}; }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 
-// Stage: row sums are closed, the linear system is solved.
+// Stage: closes the row sums and solves the linear system.
 
 #include <algorithm>
 #include <cstddef>
@@ -32,8 +32,8 @@ namespace radiosity {
 
 namespace detail {
 
-// The links of stored rays, with row sums that are better known than what they sum up to. Returns the row sums before that.
-// `error_of_lamps`: expected RMS error of the row sums of these.
+// Adds the links of stored rays, scaled to better estimates of their row sums. Returns the row sums before scaling.
+// `error_of_lamps`: expected RMS error of the lamps' row sums.
 HALFLIGHT_INLINE std::vector<double> add_ray_links(Run& run, double error_of_lamps) {
   const bool closed = run.scene.any_closed();
   const RayLinks& made = run.ray_links;
@@ -49,7 +49,8 @@ HALFLIGHT_INLINE std::vector<double> add_ray_links(Run& run, double error_of_lam
   return computed;
 }
 
-// The operator of the linear system, with the row sums of a closed scene put right as far as quadrature and sampling explain it.
+// Makes the operator of the linear system, and corrects the row sums of a closed scene as far as quadrature and sampling explain the
+// deviation.
 HALFLIGHT_INLINE void make_transport(Run& run) {
   const DiscreteScene& scene = run.scene;
   Solution& solution = run.solution;
@@ -62,7 +63,7 @@ HALFLIGHT_INLINE void make_transport(Run& run) {
   const double error = run.evaluated.doubt.rms(scene.hierarchy, area, exposed);
   audit.computed_row_sum = summarise_rows(scene.hierarchy, area, run.rays.cast ? add_ray_links(run, error) : transport.row_sums());
   if (scene.any_closed() && solution.links.size() + solution.ray_links.size() > 0) {
-    // The noise of rays is out of the row sums by now.
+    // By now the noise of rays has been removed from the row sums.
     audit.closure_limit = explained_closure(run.evaluated.doubt, scene.hierarchy, area, exposed);
     audit.closure = transport.close(audit.closure_limit);
   }
@@ -83,7 +84,7 @@ HALFLIGHT_INLINE void solve_system(Run& run) {
                           {solver, run.options.residual, run.options.max_iterations}, until);
   };
   ColorSolution solved = solve_by(audit.interrupted ? Solver::conjugate_gradients : run.options.solver, scene.control);
-  if (solved.cancelled) {  // all links are there: the solution by the fewest iterations is near
+  if (solved.cancelled) {  // all links exist, so the solver with the fewest iterations finishes quickly
     audit.interrupted = true;
     solved = solve_by(Solver::conjugate_gradients, scene.control.unstoppable());
   }
@@ -94,7 +95,7 @@ HALFLIGHT_INLINE void solve_system(Run& run) {
   run.solution.radiosity = std::move(solved.radiosity);
 }
 
-// BF-refinement has estimated the error; after F-refinement that is done now.
+// BF-refinement has estimated the error already; for F-refinement it is estimated now.
 HALFLIGHT_INLINE void estimate_error(Run& run) {
   const DiscreteScene& scene = run.scene;
   const Solution& solution = run.solution;

@@ -24,7 +24,7 @@ namespace radiosity {
 
 namespace detail {
 
-// One run at a given fineness. `budget`: its limits are set; what the run takes in any case becomes known later.
+// One run at a given fineness. `budget`: with the limits set; the fixed memory of the run is added later.
 HALFLIGHT_INLINE Outcome solve_at(const Scene& scene, const Options& options, const Control& control, const MemoryBudget& budget) {
   Run run{scene, options, control, budget};
   for (const auto next : {stage::build, stage::refine, stage::expose, stage::link, stage::solve, stage::compare_matrix, stage::reconstruct,
@@ -34,14 +34,14 @@ HALFLIGHT_INLINE Outcome solve_at(const Scene& scene, const Options& options, co
   return run.finish();
 }
 
-// BF-refinement is to end a generation earlier, if there is one.
+// Makes BF-refinement end one generation earlier; returns false if that is not possible.
 [[nodiscard]] HALFLIGHT_INLINE bool end_before(MemoryBudget& budget, std::uint32_t solved) {
   if (budget.last_generation == 0) { return false; }
   budget.last_generation = std::min(budget.last_generation, solved) - 1;
   return true;
 }
 
-// F-refinement is to make about half as many links, while there are any to be saved.
+// Makes F-refinement produce about half as many links; returns false if the thresholds cannot be larger.
 [[nodiscard]] HALFLIGHT_INLINE bool coarsen(Options& options) {
   if (options.epsilon >= 1.0) { return false; }
   constexpr double step = 1.5;

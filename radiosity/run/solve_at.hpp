@@ -13,10 +13,10 @@ namespace radiosity {
 
 namespace detail {
 
-// One run within the memory that there is. When that has run out, the run is made again, in the memory that is free then: of
-// BF-refinement up to the last generation that had a solution, or to one before it, of F-refinement with larger thresholds, until it fits.
-// Generations grow, and F-refinement tells early what it will need, so what is lost takes about as long as the run that fits. The
-// times of the runs that were lost are told. `held`: by the solution of an earlier round, if there is one; a coarser one is of no use then.
+// One run within the available memory. If memory runs out, the run is repeated in the memory that is then free: BF-refinement up to the
+// last generation with a solution, or to an earlier one; F-refinement with larger thresholds, until it fits. Generations grow in size and
+// F-refinement predicts its needs early, so the lost work takes about as long as the run that fits. The times of lost runs are reported.
+// `held`: bytes held by the solution of an earlier round, or 0; with an earlier solution, a coarser one is useless.
 [[nodiscard]] Outcome solve_within_memory(const Scene& scene, const Options& options, const Control& control, std::uint64_t held = 0);
 
 }  // namespace detail

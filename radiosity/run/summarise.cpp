@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 
-// Stage: sizes, rays and what was left out.
+// Stage: reports sizes, rays and shortcuts.
 
 #include <algorithm>
 #include <cstddef>

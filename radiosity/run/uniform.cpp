@@ -37,7 +37,7 @@ namespace radiosity {
 
 namespace detail {
 
-// The options of a hierarchical run, as far as its stages are used here.
+// The options of a hierarchical run, for the stages used here.
 HALFLIGHT_INLINE Options options_of(const UniformOptions& uniform) {
   Options options;
   options.residual = uniform.residual;
@@ -51,7 +51,7 @@ HALFLIGHT_INLINE Options options_of(const UniformOptions& uniform) {
 
 HALFLIGHT_INLINE std::optional<Failure> interrupted() { return Failure{Failure::Kind::cancelled, {"the run was interrupted"}}; }
 
-// Instead of refinement: cuts every input face evenly.
+// Replaces refinement: cuts every input face evenly.
 HALFLIGHT_INLINE std::optional<Failure> build_evenly(Run& run, const UniformOptions& options) {
   DiscreteScene& scene = run.scene;
   if (!(options.max_area > 0.0)) { return Failure{Failure::Kind::invalid_options, {"max_area must be above 0"}}; }
@@ -76,7 +76,7 @@ HALFLIGHT_INLINE std::optional<Failure> build_evenly(Run& run, const UniformOpti
   return std::nullopt;
 }
 
-// How many leaves there may be, and how much memory they may take; `tables`: what the solver holds, in bytes.
+// Checks the number of leaves and the memory; `tables`: bytes held by the solver.
 HALFLIGHT_INLINE std::optional<Failure> check_size(Run& run, const UniformOptions& options, std::uint64_t leaves, std::uint64_t tables) {
   if (leaves > options.max_leaves) {
     return Failure{Failure::Kind::invalid_options, {std::to_string(leaves) + " leaves; a larger max_area needs fewer"}};
@@ -100,7 +100,7 @@ HALFLIGHT_INLINE void report(Run& run, const DenseSolution& solved) {
   run.watch.lap("solve");
 }
 
-// Instead of links: all exchanges between leaves, kept in a matrix or made shot by shot.
+// Replaces links: all exchanges between leaves, stored in a matrix or computed shot by shot.
 HALFLIGHT_INLINE std::optional<Failure> solve_leaves(Run& run, const UniformOptions& options, const LeafExchange& exchange,
                                                      const LeafMaterials& leaves) {
   const DiscreteScene& scene = run.scene;
@@ -156,7 +156,7 @@ HALFLIGHT_INLINE std::optional<Failure> solve_by_exchanges(Run& run, const Unifo
   return failure;
 }
 
-// Instead of exchanges: each leaf gathers over rays of its own.
+// Replaces exchanges: each leaf gathers over its own rays.
 HALFLIGHT_INLINE std::optional<Failure> solve_by_lists(Run& run, const UniformOptions& options) {
   const DiscreteScene& scene = run.scene;
   const std::uint64_t n = exposed_leaves(scene.hierarchy, scene.exposure);
@@ -170,7 +170,7 @@ HALFLIGHT_INLINE std::optional<Failure> solve_by_lists(Run& run, const UniformOp
   return stage::compare_matrix(run);
 }
 
-// The pictures, as after links, but T-vertices are eliminated for all of them.
+// Makes the mesh as after links, except that T-vertices are always eliminated.
 HALFLIGHT_INLINE void reconstruct_leaves(Run& run) {
   eliminate_t_vertices(run.scene.surfaces);
   run.solution.mesh = run.picture(run.solution.radiosity, run.options.reconstruction);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Radiosity as it was before the hierarchy: every input face is cut evenly, whatever the light does, and every leaf exchanges light
-// with every other, by a full matrix (Goral et al. 1984, here with Gauss-Seidel) or by shooting (Cohen et al. 1988); or it gathers over
-// rays of its own, as a plain program would do (gather_lists.hpp). The path to the solution is that of radiosity.hpp with other refinement
-// and other solvers; the result has the same form.
+// Radiosity without a hierarchy, as it was before: every input face is cut evenly, regardless of the light, and every leaf exchanges
+// light with every other, by a full matrix (Goral et al. 1984, here with Gauss-Seidel) or by shooting (Cohen et al. 1988); or each leaf
+// gathers over its own rays, as in a simple program (gather_lists.hpp). The other stages are those of radiosity.hpp, and the result has
+// the same form.
 
 #include <cstdint>
 #include <optional>
@@ -24,7 +24,7 @@ struct UniformOptions {
   double residual = 1e-8;            // of Gauss-Seidel and gather_lists, relative to the emission
   double unshot = 1e-2;              // of shooting: power at which it ends, relative to the emitted power
   ListEffort lists;                  // of gather_lists
-  std::uint32_t max_leaves = 20000;  // more are refused: the matrix takes 4 bytes a pair
+  std::uint32_t max_leaves = 20000;  // more are refused, because the matrix takes 4 bytes per pair
   Reconstruction reconstruction = Reconstruction::weighted;
   std::optional<std::uint32_t> compare;  // as in Options
   unsigned threads = 0;
@@ -32,8 +32,8 @@ struct UniformOptions {
   std::optional<std::uint64_t> memory;  // as in Options
 };
 
-// `links` of the audit counts the entries of the matrix, the exchanges that were made and not kept, or the stored rays. There is no error
-// estimate.
+// Audit::links counts the entries of the matrix, the exchanges that were computed and not kept, or the stored rays. The error is not
+// estimated.
 [[nodiscard]] Outcome solve_uniform(const Scene& scene, const UniformOptions& options, const Control& control = {});
 
 }  // namespace radiosity

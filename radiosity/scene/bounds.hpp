@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Objects where they stand, and the bounds of a scene's surfaces. As a solid, a room (an object with `inside`) is unbounded: everything
-// outside its shape. Its surface is that of the shape, whose bounds are taken.
+// Placed objects, and the bounds of a scene's surfaces. A room (an object with `inside`) is, as a solid, unbounded: everything outside
+// its shape. Its surface is that of the shape, so the bounds of the shape are used.
 
 #include <array>
 #include <cstddef>
@@ -17,8 +17,8 @@
 
 namespace radiosity {
 
-// Bounds of the eight placed corners of the shape's own bounds: not tight for a rotated shape. NaN gives an empty or
-// infinite box, never a finite one that is too small.
+// Bounds of the eight placed corners of the shape's own bounds; not tight for a rotated shape. NaN gives an empty or infinite
+// box, never a finite one that is too small.
 [[nodiscard]] inline raycast::Box placed_bounds(const raycast::Object& shape, const raycast::Placement& placement) {
   const raycast::Box own = shape.bounds();
   raycast::Box result;
@@ -29,7 +29,7 @@ namespace radiosity {
   return result;
 }
 
-// The middles of the six sides of the box around a shape, before it was placed: on a sphere, and, but for the side of a cone, on the others.
+// The centres of the six sides of the shape's box, placed. They lie on a sphere and on most other shapes, except for the side of a cone.
 [[nodiscard]] inline std::array<glm::dvec3, 6> placed_sides(const raycast::Object& shape, const raycast::Placement& placement) {
   const raycast::Box own = shape.bounds();
   std::array<glm::dvec3, 6> sides{};
@@ -51,7 +51,7 @@ namespace radiosity {
   return result;
 }
 
-// The objects of the scene where they stand, in the scene's own coordinates.
+// The placed objects of the scene, in scene coordinates.
 [[nodiscard]] inline std::vector<raycast::PlacedObject> placed_objects(const Scene& scene) {
   std::vector<raycast::PlacedObject> objects;
   for (const SceneObject& object : scene.objects) { objects.emplace_back(object.shape, object.placement); }

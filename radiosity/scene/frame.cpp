@@ -33,7 +33,7 @@ HALFLIGHT_INLINE std::optional<Frame> make_frame(const Scene& scene) {
   const glm::dvec3 size = hi - lo;
   const double extent = std::max({size.x, size.y, size.z});
   if (!(extent > 0.0) || !std::isfinite(extent)) { return std::nullopt; }
-  // On a grid of a millionth of the size, the centre does not depend on the last bits of the bounds.
+  // The centre is rounded to a grid of a millionth of the size, so that it does not depend on the last bits of the bounds.
   const double grid = std::ldexp(1.0, std::ilogb(extent) - 20);
   const glm::dvec3 centre = glm::round((lo + 0.5 * size) / grid) * grid;
   return Frame{centre, std::ldexp(1.0, -std::ilogb(extent))};

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The frame in which a run computes: the scene's centre is (nearly) the origin and its size lies in [1, 2). The factor is
-// an exact power of two, so a scene scaled by a power of two gives the same bits, and a scene far from the
-// origin loses no more than its input had lost already.
+// The frame in which a run computes: the scene's centre is (nearly) the origin, and its size is in [1, 2). The scale is an
+// exact power of two, so a scene scaled by a power of two gives the same bits, and a scene far from the origin loses no more
+// precision than its input had lost already.
 
 #include <optional>
 
@@ -27,7 +27,7 @@ struct Frame {
   [[nodiscard]] double to_scene_area(double area) const { return area / scale / scale; }
 };
 
-// The frame of a sound scene; nothing when its bounds are not finite or have no size.
+// The frame of a valid scene; nothing if its bounds are not finite or have no size.
 [[nodiscard]] std::optional<Frame> make_frame(const Scene& scene);
 
 // The objects of the scene, compiled for rays in the coordinates of the frame.

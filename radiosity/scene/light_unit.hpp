@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The unit of light in which a run computes: a power of two, so that the strongest emission of the scene lies in [1, 2).
+// The unit of light in which a run computes: a power of two for which the strongest emission of the scene is in [1, 2).
 //
-// Radiosity is linear in the emission, but norms and errors square it: below 1e-154 W/m2 the squares vanish, above 1e154 they overflow.
-// A change of the unit by a power of two changes no digit of a result, so every finite emission gives the same relative answer.
+// Radiosity is linear in the emission, but norms and errors are squares: below 1e-154 W/m2 they would underflow, above 1e154 overflow.
+// Scaling by a power of two changes no digit of a result, so every finite emission gives the same relative result.
 
 #include <algorithm>
 #include <cmath>
@@ -17,7 +17,7 @@
 
 namespace radiosity {
 
-// The light in the unit is the light in W/m2 times 2^-exponent.
+// Light in the unit is light in W/m2 times 2^-exponent.
 struct LightUnit {
   int exponent = 0;
 
@@ -30,7 +30,7 @@ struct LightUnit {
   }
 };
 
-// Of the materials that objects use; where nothing shines, W/m2 itself. The scene must be sound.
+// The unit for the materials that objects use; W/m2 if none of them emits. The scene must be valid.
 [[nodiscard]] inline LightUnit light_unit(const Scene& scene) {
   double strongest = 0.0;
   for (const SceneObject& object : scene.objects) {

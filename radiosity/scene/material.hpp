@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// What a surface does with light. Every surface is an ideal diffuse (Lambertian) reflector, as in the
-// paper (section 3): it is described by its reflectance rho in [0,1] and its own emission E, per channel.
+// What a surface does with light. Every surface is an ideal diffuse (Lambertian) reflector, as in the paper (section 3),
+// described by its reflectance rho in [0,1] and its own emission E, per channel.
 //
 // Units: emission and radiosity are exitances in W/m2. Radiance of a diffuse surface is B / pi.
 
@@ -15,7 +15,7 @@
 
 namespace radiosity {
 
-// One number per channel: red, green, blue.
+// One value per channel: red, green, blue.
 using Color = glm::dvec3;
 
 struct Material {
@@ -24,7 +24,7 @@ struct Material {
   Color emission{0.0};     // E, W/m2, each channel >= 0 and finite
 };
 
-// A sentence that says what is wrong with the material, or nothing when it is sound.
+// A sentence that says what is wrong with the material, or nothing if it is valid.
 [[nodiscard]] inline std::optional<std::string> fault(const Material& material) {
   for (int c = 0; c < 3; ++c) {
     const double rho = material.reflectance[c];

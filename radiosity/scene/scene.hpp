@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The input: objects that keep their analytic shape from start to end (paper 4.1), each with the materials of
-// its sheets. Nothing in here is ever changed by a run.
+// The input: objects that keep their analytic shape from start to end (paper 4.1), each with the materials of its sheets. A run
+// never changes it.
 
 #include <cstdint>
 #include <memory>
@@ -20,7 +20,7 @@ struct SceneObject {
   std::string name;
   std::shared_ptr<const raycast::Object> shape;
   raycast::Placement placement;
-  std::vector<std::uint32_t> material;  // indices into Scene::materials: one for all sheets, or one a sheet
+  std::vector<std::uint32_t> material;  // indices into Scene::materials: one for all sheets, or one per sheet
 };
 
 struct Scene {
@@ -28,7 +28,7 @@ struct Scene {
   std::vector<SceneObject> objects;
 };
 
-// One sheet of one object: the unit in which results are reported.
+// A sheet of an object: the unit for which results are reported.
 struct InputSurface {
   std::uint32_t object = 0;
   std::uint32_t sheet = 0;
@@ -36,10 +36,10 @@ struct InputSurface {
   std::string name;  // "floor", or "room.x0" when the object has several sheets
 };
 
-// All input surfaces, in the order of objects, then sheets. The scene must be sound (see faults()).
+// All input surfaces, ordered by object, then sheet. The scene must be valid (see faults()).
 [[nodiscard]] std::vector<InputSurface> surfaces(const Scene& scene);
 
-// Every fault of the scene, one sentence each; empty when it can be solved.
+// Every fault of the scene, one sentence each; empty if it can be solved.
 [[nodiscard]] std::vector<std::string> faults(const Scene& scene);
 
 }  // namespace radiosity

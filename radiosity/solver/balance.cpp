@@ -13,7 +13,7 @@ namespace radiosity {
 
 namespace detail {
 
-// D S D of the D so far.
+// Applies D S D with the current D.
 struct Scaled {
   void operator()(const std::vector<double>& x, std::vector<double>& y) {
     scratch.resize(x.size());
@@ -30,7 +30,7 @@ struct Scaled {
   int products = 0;
 };
 
-// Solves (diag(rows) + S) x = r, in the rows that are free, until the residual is `part` of that of x = 0.
+// Solves (diag(rows) + S) x = r in the free rows, until the residual is `part` of that of x = 0.
 [[nodiscard]] HALFLIGHT_INLINE std::vector<double> newton_step(Scaled& matrix, const std::vector<double>& rows,
                                                                const std::vector<bool>& free, std::vector<double> r, double part) {
   const std::size_t n = rows.size();
@@ -64,8 +64,8 @@ struct Scaled {
   return x;
 }
 
-// Sum of the squared differences of row sums and what they should be, each over the larger of the two. Rows that should be 0 are left out,
-// because no scale of their own changes them.
+// Sum of the squared deviations of the row sums, each divided by the larger of actual and wanted value. Rows that should be 0 are left
+// out, because scaling cannot change them.
 [[nodiscard]] HALFLIGHT_INLINE double distance(const std::vector<double>& rows, const std::vector<double>& wanted) {
   double sum = 0.0;
   for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -84,7 +84,7 @@ HALFLIGHT_INLINE std::vector<double> balance(const SymmetricOperator& apply, con
   std::vector<double> missing(n, 0.0);
   std::vector<bool> free(n, false);
   const auto limit = [&](double scale) { return std::clamp(scale, goal.limits.least, goal.limits.most); };
-  // The scale that has come nearest to the goal. Where the system is nearly singular a linear step leads away.
+  // The best scale so far. If the system is nearly singular, a Newton step may lead away from the goal.
   double nearest = std::numeric_limits<double>::infinity(), start = nearest;
   std::vector<double> nearest_scale = matrix.scale;
   for (bool plain = true; !matrix.exhausted(); plain = false) {
@@ -103,7 +103,7 @@ HALFLIGHT_INLINE std::vector<double> balance(const SymmetricOperator& apply, con
       if (free[i]) { worst = std::max(worst, std::abs(missing[i]) / t[i]); }
     }
     if (worst < goal.tolerance) { return off <= start ? matrix.scale : nearest_scale; }
-    // Far from the goal the linear step may lead anywhere: one step of the plain iteration comes before it.
+    // Far from the goal a Newton step may lead anywhere, so one step of the simple iteration comes first.
     std::vector<double> step;
     if (!plain) { step = detail::newton_step(matrix, rows, free, missing, std::min(0.1, worst)); }
     for (std::size_t i = 0; i < n; ++i) {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Symmetric scaling of a matrix to given row sums: D with D S D 1 = t, for a symmetric S whose entries are, but for rounding, not negative.
-// Newton's method, each step solved by conjugate gradients (Knight and Ruiz 2013). The plain iteration d_i *= sqrt(t_i / row i) halves what
-// the constant has wrong in each round but leaves (1 - lambda) / 2 of an eigenvector of eigenvalue lambda, which is slow where two sides
-// light each other and lambda is near -1.
+// Symmetric scaling of a matrix to given row sums: finds a diagonal D with D S D 1 = t, for a symmetric S whose entries are non-negative
+// up to rounding. Newton's method, each step solved by conjugate gradients (Knight and Ruiz 2013). The simple iteration
+// d_i *= sqrt(t_i / row i) halves a constant error in each round but reduces an eigenvector with eigenvalue lambda only by the factor
+// (1 - lambda) / 2, which is slow if two sides light each other and lambda is near -1.
 
 #include <functional>
 #include <limits>
@@ -20,11 +20,11 @@ struct ScaleLimits {
 };
 struct Balance {
   ScaleLimits limits{};
-  double tolerance = 1e-12;  // of row sums, relative
+  double tolerance = 1e-12;  // relative error of the row sums
 };
 
-// The diagonal of D: 1 in rows with t = 0 and in those without light. As near as 400 products with S come where no D is within the limits,
-// and never further than D = 1 is.
+// Returns the diagonal of D, with 1 in rows with t = 0 or without entries. If no D is within the limits, returns the best one found with
+// 400 products with S, which is never worse than D = 1.
 [[nodiscard]] std::vector<double> balance(const SymmetricOperator& apply, const std::vector<double>& t, const Balance& goal);
 
 }  // namespace radiosity

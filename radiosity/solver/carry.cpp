@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 
-// Light over the links between patches, the inner loop of the linear system: for a link G (1 + g_p . x + g_q . y) from p to q
+// Carries light over the links between patches, the inner loop of the linear system. For a link G (1 + g_p . x + g_q . y) from p to q:
 //
 //     arrived_q.value += G (sent_p.value + g_p . sent_p.slope)        arrived_q.slope += G sent_p.value g_q
 //
-// and the same from q to p. With AVX2 a value and its slope are one vector of four, and so are 1 and a gradient.
+// and likewise from q to p. With AVX2 a value and its slope are one vector of four, and so are 1 and a gradient.
 
 #include <cstddef>
 #include <cstdint>
@@ -37,7 +37,7 @@ HALFLIGHT_INLINE void Transport::carry(const Link& link, const Moments& from, Mo
 #ifdef HALFLIGHT_X86
 namespace detail {
 
-// (1, gradient) of the shape that lies in the last 6 of these 8 bytes of a link.
+// (1, gradient) of a shape, which is in the last 6 of these 8 bytes of a link.
 [[nodiscard]] __attribute__((target("avx2"), always_inline)) inline __m256d one_and_gradient(const char* bytes) {
   constexpr std::uint64_t one = 0x3f80;  // 1.0 as the upper half of a float
   std::uint64_t halves;
@@ -46,7 +46,7 @@ namespace detail {
   return _mm256_cvtps_pd(_mm_castsi128_ps(_mm_slli_epi32(words, 16)));
 }
 
-// Transport::carry(link, from, to, ...), rounded alike.
+// The same as Transport::carry(link, from, to, ...), with the same rounding.
 __attribute__((target("avx2"), always_inline)) inline void carry_one_way(double exchange, __m256d from, double* to, __m256d gradient_from,
                                                                          __m256d gradient_to) {
   const __m256d product = _mm256_mul_pd(from, gradient_from);
@@ -59,7 +59,7 @@ __attribute__((target("avx2"), always_inline)) inline void carry_one_way(double 
   _mm256_storeu_pd(to, _mm256_add_pd(_mm256_loadu_pd(to), more));
 }
 
-// Has the link no gradient? Most have none: those between leaves.
+// Is the link without a gradient? Most are, because most links are between leaves.
 [[nodiscard]] inline bool is_even(const Link& link) {
   std::uint32_t words[3];
   static_assert(sizeof(words) == sizeof(link.shape_p) + sizeof(link.shape_q));

@@ -21,10 +21,10 @@ namespace radiosity {
 
 namespace detail {
 
-// Reflecting leaves that light can reach from each other are one room: only within it do they share a constant mode.
+// Reflecting leaves connected by links form one room: the constant mode exists only within it.
 struct Rooms {
-  std::vector<std::uint32_t> of;  // of each node
-  std::vector<double> weight;     // sum of A / rho of each room
+  std::vector<std::uint32_t> of;  // by node
+  std::vector<double> weight;     // by room: sum of A / rho
   std::uint32_t count = 0;
 };
 
@@ -39,10 +39,10 @@ HALFLIGHT_INLINE Rooms rooms_of(const Channel& channel) {
     root[i] = parent == no_node || hierarchy[parent].is_cluster() ? i : root[parent];
     if (unknown(i)) { reflects[root[i]] = true; }
   }
-  for (std::size_t i = n; i-- > 0;) {  // a cluster reflects when anything in it does
+  for (std::size_t i = n; i-- > 0;) {  // a cluster reflects if anything in it does
     if (hierarchy[i].parent != no_node && reflects[root[i]]) { reflects[root[hierarchy[i].parent]] = true; }
   }
-  // The link of a cluster reaches everything in it.
+  // The link of a cluster connects everything in it.
   std::vector<bool> joined(n, false);
   channel.transport->each_link([&](const Link& link) {
     for (const std::uint32_t i : {link.p, link.q}) { joined[i] = joined[i] || hierarchy[i].is_cluster(); }
@@ -60,7 +60,7 @@ HALFLIGHT_INLINE Rooms rooms_of(const Channel& channel) {
   Rooms rooms;
   rooms.of.assign(n, no_node);
   for (std::uint32_t i = 0; i < n; ++i) {
-    const std::uint32_t room = sets.find(root[i]);  // not after its members
+    const std::uint32_t room = sets.find(root[i]);  // its index is not larger than those of its members
     if (rooms.of[room] == no_node) {
       rooms.of[room] = rooms.count++;
       rooms.weight.push_back(0.0);
@@ -71,8 +71,8 @@ HALFLIGHT_INLINE Rooms rooms_of(const Channel& channel) {
   return rooms;
 }
 
-// The system x - rho H(x) of the leaves that reflect, in the inner product of weights A / rho, in which it is symmetric and positive
-// definite; and the constant of each room, which is taken out of the residual and of the steps (deflation).
+// The system x - rho H(x) of the reflecting leaves, in the inner product with weights A / rho, in which it is symmetric and positive
+// definite; and the constant of each room, which is removed from residual and steps (deflation).
 class DeflatedSystem {
  public:
   explicit DeflatedSystem(const Channel& channel) : channel_{channel}, weight_(channel.emission.size(), 0.0), rooms_{rooms_of(channel)} {
@@ -85,7 +85,8 @@ class DeflatedSystem {
     }
     apply(constant, image_of_constant_);
     stiffness_ = along_constants(constant);
-    for (std::size_t k = 0; k < rooms_.count; ++k) {  // what is not positive beyond rounding has no steady state, and is not deflated
+    // A room whose stiffness is not positive beyond rounding has no steady state and is not deflated.
+    for (std::size_t k = 0; k < rooms_.count; ++k) {
       if (!(stiffness_[k] > 1e-14 * rooms_.weight[k])) { stiffness_[k] = std::numeric_limits<double>::infinity(); }
     }
   }
@@ -102,7 +103,7 @@ class DeflatedSystem {
     for (std::size_t i = 0; i < x.size(); ++i) { y[i] = weight_[i] > 0.0 ? x[i] - y[i] / weight_[i] : 0.0; }
   }
 
-  // Adds to b the constant of each room after which the residual r has no part along it.
+  // Adds to b the constant of each room that makes the residual r orthogonal to it.
   void correct(std::vector<double>& b, std::vector<double>& r) const {
     std::vector<double> amount(rooms_.count, 0.0);
     for (std::size_t i = 0; i < b.size(); ++i) {
@@ -115,7 +116,7 @@ class DeflatedSystem {
     }
   }
 
-  // The next direction: the residual without its part along the constants, and `along` times the last one.
+  // The next direction: the residual without its part along the constants, plus `along` times the previous direction.
   void turn(std::vector<double>& step, const std::vector<double>& r, double along) const {
     const std::vector<double> amount = along_constants(r);
     step.resize(r.size(), 0.0);
@@ -125,7 +126,7 @@ class DeflatedSystem {
   }
 
  private:
-  // Of each room: the inner product of the image of its constant with x.
+  // By room: the inner product of the image of its constant with x.
   [[nodiscard]] std::vector<double> along_constants(const std::vector<double>& x) const {
     std::vector<double> sums(rooms_.count, 0.0);
     for (std::size_t i = 0; i < x.size(); ++i) {
@@ -135,7 +136,7 @@ class DeflatedSystem {
   }
 
   const Channel& channel_;
-  std::vector<double> weight_;  // A / rho where unknown, 0 where B = E is known
+  std::vector<double> weight_;  // A / rho where B is unknown, 0 where B = E is known
   Rooms rooms_;
   std::vector<double> image_of_constant_, stiffness_;
 };
@@ -149,7 +150,7 @@ HALFLIGHT_INLINE LinearSolution conjugate_gradients(const Channel& channel, doub
   Progress progress{channel};
   double square = 0.0;
   for (std::uint32_t iteration = 0;; ++iteration) {
-    if (iteration % 16 == 0) {  // the true residual, so that rounding in the recurrence does not build up
+    if (iteration % 16 == 0) {  // the true residual, so that rounding errors of the recurrence do not accumulate
       channel.residual(b, r);
       system.correct(b, r);
     }
@@ -163,7 +164,7 @@ HALFLIGHT_INLINE LinearSolution conjugate_gradients(const Channel& channel, doub
     square = next_square;
     system.apply(step, image);
     const double curvature = system.inner(step, image);
-    if (!(curvature > 0.0)) {  // rho times a row sum is 1 or more: there is no steady state
+    if (!(curvature > 0.0)) {  // rho times a row sum is 1 or more: no steady state exists
       return finish(channel, std::move(progress), iteration, wanted);
     }
     const double length = square / curvature;

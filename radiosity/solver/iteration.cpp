@@ -55,7 +55,8 @@ HALFLIGHT_INLINE LinearSolution finish(const Channel& channel, Progress progress
   solution.converged = progress.best_norm <= std::max(wanted * progress.reflected, channel.rounding(solution.radiosity));
   solution.history = std::move(progress.history);
   std::vector<double>& b = solution.radiosity;
-  // Where hardly any light arrives an iterate may be negative, within its residual. A radiosity cannot be, so 0 is nearer to the truth.
+  // If hardly any light arrives an iterate may be slightly negative, within its residual. A radiosity cannot be, so 0 is closer to the
+  // truth.
   for (double& x : b) { x = std::max(x, 0.0); }
   for (std::size_t i = b.size(); i-- > 0;) {
     const Node& node = (*channel.hierarchy)[i];

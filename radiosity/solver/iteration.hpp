@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// What the iterations of solve.hpp share: one channel of the linear system, its residual, the best iterate and when to stop.
+// Common parts of the solvers of solve.hpp: one channel of the linear system, its residual, the best iterate, and the stopping rule.
 //
-// Residuals are told relative to that of B = 0, which is E. An iteration ends by that of B = E, the light that is reflected first: where
-// a sun shines on little, or surfaces are nearly black, it is a millionth of E, and all that is to be found.
+// Residuals are reported relative to that of B = 0, which is E. An iteration stops relative to the residual of B = E, the light that is
+// reflected first: if a sun lights only a small area, or surfaces are nearly black, that is a millionth of E but all that there is to find.
 
 #include <cstddef>
 #include <cstdint>
@@ -17,21 +17,21 @@
 namespace radiosity {
 
 struct LinearSolution {
-  std::vector<double> radiosity;  // of every node: leaves solved, inner nodes area averages
-  double residual = 0.0;          // relative, of the radiosity returned
+  std::vector<double> radiosity;  // by node: solved at leaves, area averages at inner nodes
+  double residual = 0.0;          // relative residual of the returned radiosity
   std::uint32_t iterations = 0;
   bool converged = false;
-  std::vector<double> history;  // the relative residual after each iteration, that of the start first
+  std::vector<double> history;  // relative residual at the start and after each iteration
 };
 
 namespace detail {
 
-// One channel of the problem: leaves with exposed area only.
+// One channel of the problem, on the leaves with exposed area.
 struct Channel {
   const Hierarchy* hierarchy = nullptr;
   Transport* transport = nullptr;
   const std::vector<double>* area = nullptr;
-  std::vector<double> reflectance, emission;  // one a node; leaves count
+  std::vector<double> reflectance, emission;  // by node; only leaves count
 
   [[nodiscard]] bool counts(std::size_t i) const { return (*hierarchy)[i].leaf() && (*area)[i] > 0.0; }
 
@@ -42,17 +42,17 @@ struct Channel {
   }
 
   [[nodiscard]] double norm(const std::vector<double>& r) const;
-  // Below this the norm of a residual of B = b is rounding: B and H(B) are sums of some ten terms a level, each known to half an epsilon.
-  // What reflects nothing has no residual.
+  // Norm below which a residual of B = b is only rounding: B and H(B) are sums of some ten terms per level, each with an error of half an
+  // epsilon. Surfaces that reflect nothing have no residual.
   [[nodiscard]] double rounding(const std::vector<double>& b) const;
 };
 
-// Keeps the best iterate and tells when to stop.
+// Keeps the best iterate and decides when to stop.
 struct Progress {
   explicit Progress(const Channel& channel);
 
   double start = 0.0;      // norm of E
-  double reflected = 0.0;  // of the residual of B = E
+  double reflected = 0.0;  // norm of the residual of B = E
   std::vector<double> best;
   double best_norm = std::numeric_limits<double>::infinity();
 

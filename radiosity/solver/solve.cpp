@@ -25,7 +25,7 @@ namespace radiosity {
 
 namespace detail {
 
-// Calls step(b, r), which improves the solution b with the help of its residual r, until one of the limits is met.
+// Calls step(b, r), which improves the solution b using its residual r, until one of the limits is reached.
 template <class Step>
 [[nodiscard]] LinearSolution iterate(const Channel& channel, double wanted, std::uint32_t max_iterations, const Control& control,
                                      const Step& step) {
@@ -73,7 +73,7 @@ HALFLIGHT_INLINE LinearSolution southwell(const Channel& channel, double wanted,
   TreeTransport trees{*channel.transport};
   Greatest gain{std::vector<double>(trees.trees(), 0.0)};
   std::vector<double> reflectance(trees.trees(), 0.0);
-  std::size_t step = 0;  // the work of one step of Gauss-Seidel
+  std::size_t step = 0;  // the work of one Gauss-Seidel iteration
   for (std::uint32_t t = 0; t < trees.trees(); ++t) {
     step += trees.work(t);
     for (const std::uint32_t i : trees.nodes(t)) { reflectance[t] = std::max(reflectance[t], channel.reflectance[i]); }

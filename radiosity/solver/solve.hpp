@@ -1,22 +1,21 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Solves B = E + rho H(B) on the leaves, each channel on its own.
+// Solves B = E + rho H(B) on the leaves, each channel separately.
 //
-//   conjugate_gradients  on the symmetric system (A / rho - M) B = A E / rho, which is positive definite when
-//                        rho times the row sum is below 1; leaves with rho = 0 are known (B = E) and move to the
-//                        right-hand side. The constant mode of each room, which rho near 1 hardly damps, is solved for
-//                        directly and kept out of the search (deflation, Nicolaides 1987): the number of iterations
-//                        does not depend on rho.
+//   conjugate_gradients  on the symmetric system (A / rho - M) B = A E / rho, which is positive definite if rho times the row sum is
+//                        below 1; leaves with rho = 0 are known (B = E) and move to the right-hand side. The constant mode of each room,
+//                        which hardly decays if rho is near 1, is solved directly and removed from the search (deflation, Nicolaides
+//                        1987), so the number of iterations does not depend on rho.
 //   jacobi               the textbook iteration B <- E + rho H(B); its error shrinks by rho each time.
-//   gauss_seidel         the same, one input face after the other, with what the others have by now: about twice as fast.
+//   gauss_seidel         one input face after the other, using the updated values of the others: about twice as fast.
 //   southwell            shooting (progressive refinement, Cohen et al. 1988; Southwell relaxation, Gortler et al. 1994): the input face
-//                        with the most unshot power, for what its shot costs, shoots it. Where surfaces differ much in their links those
-//                        with the most power alone would do all the work. An iteration costs what one of Gauss-Seidel does.
+//                        with the largest unshot power relative to the cost of its shot shoots it. By power alone, where numbers of
+//                        links differ much, the costly faces would do all the work. One iteration costs as much as one of Gauss-Seidel.
 //
-// Residual: || E + rho H(B) - B || / || E ||, area-weighted over all leaves. An iteration ends when it is `wanted` times that of B = E,
-// which is the light that is reflected first. The iterate with the least residual is kept; an iteration that diverges is stopped and says
-// so. Where rho is so near 1 that B is known to no more than the residual wanted, the residual ends at the rounding of B.
+// Residual: || E + rho H(B) - B || / || E ||, area-weighted over all leaves. Stops when it is `wanted` times that of B = E, the light
+// that is reflected first. The iterate with the smallest residual is kept; divergence is detected and reported. If rho is so near 1 that
+// rounding of B exceeds the wanted residual, the iteration stops at that rounding.
 
 #include <cstdint>
 #include <vector>
@@ -35,37 +34,37 @@ LinearSolution jacobi(const Channel& channel, double wanted, std::uint32_t max_i
 
 LinearSolution gauss_seidel(const Channel& channel, double wanted, std::uint32_t max_iterations, const Control& control);
 
-// b + unshot -> solution; r = unshot, once all trees have received what was shot at them, is the residual of b, up to rounding. Between two
-// iterations the power of a tree is known as a bound: what it had, and the size of all that was shot at it since. `gain` is that for each
-// node and link of its shot.
+// b + unshot converges to the solution; r = unshot, once all trees have received what was shot at them, is the residual of b, up to
+// rounding. Between two iterations only a bound of a tree's power is known: its previous power plus what has been shot at it since.
+// `gain`: that bound divided by the number of nodes and links of its shot.
 LinearSolution southwell(const Channel& channel, double wanted, std::uint32_t max_iterations, const Control& control);
 
 }  // namespace detail
 
-// How a system is solved, and how far.
+// The solver and its stopping criteria.
 struct SolveBy {
   Solver solver = Solver::conjugate_gradients;
-  double residual = 1e-8;  // wanted, relative to that of B = E
+  double residual = 1e-8;  // wanted residual, relative to that of B = E
   std::uint32_t max_iterations = 1000;
 };
 
-// `area`: exposed, of each node. `reflectance` and `emission`: one number for each input surface. Solved in a unit of light of its own, a
-// power of two: the squares of a channel that is faint beside the others would vanish. `control` interrupts all solvers but conjugate
-// gradients, which need few iterations: what is left is the best iterate, not converged.
+// `area`: exposed, by node. `reflectance` and `emission`: by input surface. Computes in a unit of light of its own, a power of two,
+// because the squares of a channel that is faint beside the others would underflow. `control` interrupts all solvers except conjugate
+// gradients, which need few iterations; the result is then the best iterate, not converged.
 [[nodiscard]] LinearSolution solve_channel(Transport& transport, const std::vector<double>& area, const std::vector<double>& reflectance,
                                            const std::vector<double>& emission, const SolveBy& by, const Control& control = {});
 
 // All channels of a scene.
 struct ColorSolution {
-  std::vector<Color> radiosity;                // of every node
-  double residual = 0.0;                       // the worst channel's
-  std::uint32_t iterations = 0;                // the most of any channel
-  bool converged = true;                       // all of them
-  bool cancelled = false;                      // before they had: this is no solution
-  std::vector<std::vector<double>> histories;  // one a channel
+  std::vector<Color> radiosity;                // by node
+  double residual = 0.0;                       // largest of the channels
+  std::uint32_t iterations = 0;                // largest of the channels
+  bool converged = true;                       // did all channels converge?
+  bool cancelled = false;                      // cancelled before convergence: not a solution
+  std::vector<std::vector<double>> histories;  // by channel
 };
 
-// What the input surfaces do with light. With one channel the scene is grey and the others are copies.
+// What the input surfaces do with light. With channels == 1 the scene is grey and the other channels are copies.
 struct SurfaceLight {
   const std::vector<Color>& reflectance;
   const std::vector<Color>& emission;

@@ -71,7 +71,7 @@ HALFLIGHT_INLINE void Transport::add_sampled(Links& links) {
   ++sampled_;
 }
 
-HALFLIGHT_INLINE void Transport::Moments::divide(double area) {  // a node that is buried carries nothing
+HALFLIGHT_INLINE void Transport::Moments::divide(double area) {  // a buried node carries nothing
   const double factor = area > 0.0 ? 1.0 / area : 0.0;
   value *= factor;
   slope *= factor;
@@ -136,7 +136,7 @@ HALFLIGHT_INLINE void Transport::pull(std::size_t part, std::size_t i, const std
 HALFLIGHT_INLINE void Transport::push(std::size_t part, std::size_t i, std::vector<Moments>& arrived, std::vector<double>& y) const {
   const Node& node = (*hierarchy_)[i];
   const std::vector<glm::dvec3>& centroid = exposure_->centroid;
-  Moments& own = arrived[i];  // of a child, its parent has divided it
+  Moments& own = arrived[i];  // the value of a child has already been divided by its parent
   if (node.parent == no_node || is_cluster(node.parent)) { own.divide(exposure_->area[i]); }
   if (node.leaf()) { y[i] += own.value * exposure_->area[i] * parts_[part].scale[i]; }
   for (std::uint32_t c = node.first_child; c < node.first_child + node.child_count; ++c) {
@@ -180,7 +180,7 @@ HALFLIGHT_INLINE void Transport::scale_lamps() {
     const std::vector<double> rows = row_sums(part);
     for (std::size_t i = 0; i < rows.size(); ++i) { of_others[i] += rows[i]; }
   }
-  std::vector<double> power(of_lamps.size(), 0.0);  // of each lamp, at the leaf or at the cluster
+  std::vector<double> power(of_lamps.size(), 0.0);  // of each lamp, stored at the leaf or at the cluster
   std::vector<double> wanted(power);
   const auto lamp = [&](std::size_t i) { return lamp_cluster_[i] == no_node ? i : lamp_cluster_[i]; };
   for (std::size_t i = 0; i < of_lamps.size(); ++i) {
@@ -238,7 +238,7 @@ HALFLIGHT_INLINE std::vector<double> Transport::left_by_lamps() {
 }
 
 HALFLIGHT_INLINE double Transport::amiss(const std::vector<double>& rows) const {
-  std::vector<double> power(rows.size(), 0.0), area(rows.size(), 0.0);  // the faces of a cluster of lamps as one
+  std::vector<double> power(rows.size(), 0.0), area(rows.size(), 0.0);  // the faces of a cluster of lamps count as one
   double total = 0.0;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     if (!(*hierarchy_)[i].leaf()) { continue; }

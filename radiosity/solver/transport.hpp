@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The transport of light as one symmetric operator M on leaf radiosities: (M B)_i is the power that arrives at leaf i
-// per W/m2 sent, so the irradiance of leaf i is (M B)_i / A_i. One application pulls radiosity up to the nodes as area
-// averages and first moments, carries it over every link both ways, and pushes what arrived down to the leaves
-// (Hanrahan 1991; here with the gradients of links.hpp).
+// The transport of light as one symmetric operator M on leaf radiosities: (M B)_i is the power that arrives at leaf i per W/m2
+// sent, so the irradiance of leaf i is (M B)_i / A_i. One application pulls radiosity up to the nodes as area averages and
+// first moments, carries it over every link in both directions, and pushes the arrived light down to the leaves (Hanrahan 1991;
+// here with the gradients of links.hpp).
 //
-// A cluster (clusters.hpp) has no radiosity of its own but sends what its faces show in each direction of a lattice, and hands
-// what arrives from there to its faces by what they show of themselves to it: P has one row for each direction of each cluster, and
-// the link of a cluster picks the three rows around the direction of its other end.
+// A cluster (clusters.hpp) has no radiosity of its own. It sends what its faces show in each direction of a lattice, and distributes the
+// light from a direction among its faces by their projected areas in that direction: P has one row for each direction of each cluster,
+// and the link of a cluster uses the three rows around the direction of its other end.
 //
-// The links come in parts, M = M_1 + M_2 + ...: those of lamps, which are known best, all others, and those that were sampled by rays
-// (rays/ray_links.hpp). An error of the row sums is corrected in the parts that cause it: the noise of rays in the links of rays alone, and
-// light that seems to arrive from behind a lamp in all links but those of the lamp.
+// The links are divided into parts, M = M_1 + M_2 + ...: those of lamps, which are most accurate, all others, and those sampled by rays
+// (rays/ray_links.hpp). An error of the row sums is corrected in the parts that cause it: the noise of rays only in links of rays, and
+// light that seems to arrive from behind a lamp in all links except those of the lamp.
 //
-// In matrix form each part is D P' G P D with P the pull, G the symmetric links, P' the transpose of P, and a diagonal D that is
-// 1 unless the scene is closed: there the D make every row sum exactly what a closed scene demands.
+// In matrix form each part is D P' G P D, with P the pull, G the symmetric links, P' the transpose of P, and a diagonal D. D is 1 unless
+// the scene is closed; there D makes every row sum exactly that of a closed scene.
 
 #include <algorithm>
 #include <cstddef>
@@ -37,41 +37,40 @@
 
 namespace radiosity {
 
-// The leaves that lose no light, whose form factors sum to 1, and the nodes that count as lamps.
+// The leaves that lose no light, so that their form factors sum to 1, and the nodes that count as lamps.
 struct ClosedNodes {
-  std::vector<bool> nodes;  // empty: all
-  std::vector<bool> lamps;  // the links with one end in them are a part of their own; empty: none
+  std::vector<bool> nodes;  // by node; empty: all
+  std::vector<bool> lamps;  // by node; links with one end in them form a separate part; empty: none
 };
 
-// Row sums that no scale brings about, of a patch that sees little else than one other, would drive scales of sampled links towards 0 and
-// infinity. In a closed scene a leaf under a lamp may need a small one: where the lamp leaves least_left of the horizon, its links are
-// those of a wider node around the lamp.
-inline constexpr double least_left = 1e-3;  // of a row, beside lamps: no scale makes a row 0
+// Limits of scales. Row sums that no scale can achieve, of a patch that sees little except one other patch, would drive the scales of
+// sampled links to 0 and infinity. In a closed scene a leaf under a lamp may need a small scale: if the lamp leaves least_left of its
+// horizon, its links are those of a wider node around the lamp.
+inline constexpr double least_left = 1e-3;  // least remaining row sum beside lamps: a row must not be scaled to 0
 inline constexpr ScaleLimits scales_of_open{1.0 / 4.0, 4.0}, scales_of_closed{least_left / 4.0, 16.0};
 
 class Transport {
  public:
-  // The references must outlive the operator. Arranges the links (link_schedule.hpp). `closed`: what close() is to bring about.
+  // The references must outlive the operator. Arranges the links (link_schedule.hpp). `closed`: the nodes for close().
   Transport(const Hierarchy& hierarchy, Links& links, const Exposure& exposure, unsigned threads = 1, ClosedNodes closed = {});
 
-  // Do the form factors of the node sum to 1?
+  // Should the form factors of the node sum to 1?
   [[nodiscard]] bool closed(std::size_t i) const { return closed_.empty() || closed_[i]; }
 
-  // Adds links that were sampled, between patches, once. They must outlive the operator, which arranges them.
+  // Adds sampled links between patches; to be called once. They must outlive the operator, which arranges them.
   void add_sampled(Links& links);
-  // Makes their row sums those of `rows`, one a node, read at the leaves, within 1e-6, as far as scales within the limits go.
-  // Returns the area-weighted RMS by which their row sums changed, relative to the RMS of these: where an open scene has row sums near 0,
-  // D may be far from 1 and change nothing.
+  // Scales the sampled links to the row sums `rows` (by node, read at the leaves), within 1e-6 or as far as the limits allow. Returns the
+  // area-weighted RMS change of their row sums, relative to the RMS of these. (D - 1 would be no measure: in an open scene with row sums
+  // near 0, D may be far from 1 without changing anything.)
   double scale_sampled(const std::vector<double>& rows, const ScaleLimits& limits);
-  // What the row sums of the last part must be: at closed nodes, where rows sum to 1, what the other parts leave of 1; at others what they
-  // are.
+  // The wanted row sums of the last part: at closed nodes, 1 minus those of the other parts; at other nodes, unchanged.
   [[nodiscard]] std::vector<double> left_by_lamps();
-  // Before the other links are scaled: makes the row sums of closed lamps 1 by a scale of theirs, which other surfaces do not have. A
-  // cluster of lamps has one for all its faces, since which of them lights what near it is not known: a face then counts for the area that
-  // its links give it (area()). Without lamps nothing is done.
+  // To be called before the other links are scaled: makes the row sums of closed lamps 1, by scales of the lamps only. A cluster of lamps
+  // has one common scale, because it is not known which of its faces lights what is near it; each face then counts with the area that its
+  // links give it (area()). Does nothing without lamps.
   void scale_lamps();
 
-  // Light on its way, of a node: what it sends (mean of B over its area, and of B (x - c)), or what arrives at it (irradiance at the
+  // The light of a node in transport: what it sends (means over its area of B and of B (x - c)), or what arrives (irradiance at the
   // centroid c, and its gradient).
   struct Moments {
     double value = 0.0;
@@ -80,21 +79,21 @@ class Transport {
     void divide(double area);
   };
 
-  // y = M x. Both have one value a node; x is read and y written at the leaves, the rest of y is 0.
+  // y = M x, by node: x is read and y written at the leaves; other entries of y are 0.
   void apply(const std::vector<double>& x, std::vector<double>& y);
 
-  // The three steps of apply(), for those who go through the scene in another order.
-  // What node i sends by a part, from the radiosity of a leaf or from what its children send.
+  // The steps of apply(), for solvers that visit nodes in another order. pull: computes what node i sends in a part, from the
+  // radiosity of a leaf or from what its children send.
   void pull(std::size_t part, std::size_t i, const std::vector<double>& x, std::vector<Moments>& sent) const;
-  // What one end of a link sends, added to what arrives at the other, times its area.
+  // Adds what one end of a link sends to what arrives at the other end, times the area of that end.
   static void carry(const Link& link, const Moments& from, Moments& to, const glm::dvec3& gradient_from, const glm::dvec3& gradient_to);
-  // Likewise both ways over many links between patches. The same bits with every instruction set (carry.cpp).
+  // The same in both directions for many links between patches. The result has the same bits with every instruction set (carry.cpp).
   static void carry(std::span<const Link> links, const std::vector<Moments>& sent, std::vector<Moments>& arrived, raycast::Isa set);
-  // Adds what arrived at node i, by the links of a part and from its parent, to its children or, for a leaf, to y. Parents first.
+  // Adds what arrived at node i, by links of a part and from its parent, to its children or, for a leaf, to y. Parents first.
   void push(std::size_t part, std::size_t i, std::vector<Moments>& arrived, std::vector<double>& y) const;
 
   [[nodiscard]] const Hierarchy& hierarchy() const { return *hierarchy_; }
-  // One part after the other, those that were sampled last.
+  // The parts in order; sampled links are the last part.
   [[nodiscard]] std::size_t parts() const { return parts_.size(); }
   [[nodiscard]] std::span<const Link> links(std::size_t part) const { return parts_[part].links; }
   template <class Visit>
@@ -102,32 +101,32 @@ class Transport {
     for (const Part& part : parts_) { std::for_each(part.links.begin(), part.links.end(), visit); }
   }
 
-  // Of each node the area for which its light counts: what is exposed, but within clusters of lamps in closed scenes.
+  // By node: the area with which its light counts. This is the exposed area, except within clusters of lamps in closed scenes.
   [[nodiscard]] const std::vector<double>& area() const { return area_; }
 
-  // What each leaf sees of the scene: the sum of its form factors. 1 in a closed scene. Inner nodes hold 0.
+  // By leaf: the sum of its form factors, 1 in a closed scene. 0 at inner nodes.
   [[nodiscard]] std::vector<double> row_sums();
-  // Leaves that receive more than `most` times what there is, which nothing can, as slivers may and leaves in gaps narrower than they are:
-  // scales their links in both directions, so that their rows sum to 1, or less where they light each other. `rows`: row_sums().
+  // Corrects leaves with row sums above `most`, which are impossible but occur for slivers and for leaves in gaps narrower than they are:
+  // scales their links in both directions so that their rows sum to 1, or less if they light each other. `rows`: row_sums().
   void limit_row_sums(const std::vector<double>& rows, double most);
 
-  // Closes what loses no light: finds D with the row sums of closed nodes 1, and all others as they are, within the tolerance (symmetric
-  // scaling, van Leersum 1989; see balance.hpp), so that what quadrature and sampled visibility got wrong in the rows does not grow by
-  // rho / (1 - rho) in the solution. Beside lamps the others are scaled first, to what the lamps leave of 1, and the D of all is near 1.
-  // Leaves that see nothing at all keep their row of 0. Returns the area-weighted RMS by which the row sums were off, or nothing, and no D,
-  // when that is beyond `limit`: then something other than quadrature and sampling is wrong. D - 1 is no measure of that: it is half of
-  // what a row is off where all rows err alike, and many times as much where two patches see little but each other.
+  // Closes the nodes that lose no light: finds D such that their row sums are 1 and all others unchanged, within the tolerance (symmetric
+  // scaling, van Leersum 1989; see balance.hpp), so that row errors by quadrature and sampled visibility are not amplified in the solution
+  // by rho / (1 - rho). Beside lamps the other links are scaled first, to 1 minus the row sums of the lamps, and D for all is then near 1.
+  // Leaves that see nothing keep their row of 0. Returns the area-weighted RMS deviation of the row sums; if that exceeds `limit`,
+  // something other than quadrature and sampling is wrong, and nothing is returned or scaled. D - 1 would be no measure of the deviation:
+  // it is half of it if all rows err alike, and many times as large if two patches see little except each other.
   std::optional<double> close(double limit, double tolerance = 1e-12);
 
  private:
   [[nodiscard]] bool is_cluster(std::size_t i) const { return i < above_ && (*hierarchy_)[i].is_cluster(); }
   [[nodiscard]] double* bins(std::vector<double>& of, std::size_t i) const { return &of[(*hierarchy_)[i].cluster * direction_count]; }
 
-  // What the cluster or input face i sends, added to what its cluster sends. Children before their parents.
+  // Adds what the cluster or input face i sends to its parent cluster. Children before parents.
   void gather_into_cluster(std::size_t i);
-  // What arrived at the cluster of i from all directions, added to what arrives at i. Parents first.
+  // Adds to i what arrived at its parent cluster from all directions. Parents before children.
   void hand_out_from_cluster(std::size_t i);
-  // Mean radiosity that an end of a cluster link sends along it, and power that arrives at one.
+  // Mean radiosity that an end of a cluster link sends along it; adds power that arrives at such an end.
   [[nodiscard]] double sent_by(std::uint32_t i, const EndShape& shape);
   void arrive_at(std::uint32_t i, const EndShape& shape, double power);
 
@@ -141,27 +140,27 @@ class Transport {
     std::vector<std::size_t> round_sizes;
     std::vector<double> scale;  // D, at the leaves
   };
-  // Adds to y what arrives over the links of a part.
+  // Adds to y the light carried by a part.
   void apply(std::size_t part, const std::vector<double>& x, std::vector<double>& y);
   [[nodiscard]] std::vector<double> row_sums(std::size_t part);
-  // Scales the links of a part to these row sums, as far as scales within the limits go.
+  // Scales the links of a part to these row sums, as far as the limits allow.
   void scale(std::size_t part, const std::vector<double>& rows, const ScaleLimits& limits);
-  // The area-weighted RMS by which the row sums of closed leaves differ from 1, those that see nothing left out.
+  // The area-weighted RMS deviation of the row sums of closed leaves from 1, without leaves that see nothing.
   [[nodiscard]] double amiss(const std::vector<double>& rows) const;
 
   const Hierarchy* hierarchy_;
   const Exposure* exposure_;
   unsigned threads_;
   std::vector<double> area_;                 // by node, see area()
-  std::vector<bool> closed_;                 // nodes; empty: all
-  std::vector<bool> lamps_;                  // nodes; none where lamps have no part of their own, which is the first
-  std::vector<std::uint32_t> lamp_cluster_;  // of each node the largest cluster of lamps that holds it, or no_node; likewise
+  std::vector<bool> closed_;                 // by node; empty: all
+  std::vector<bool> lamps_;                  // by node; empty if lamps do not form a part of their own, which is then the first
+  std::vector<std::uint32_t> lamp_cluster_;  // by node: the largest cluster of lamps that contains it, or no_node; may be empty
   std::vector<Part> parts_;
-  std::size_t sampled_ = 0;  // parts
-  std::size_t above_ = 0;    // clusters and input faces, when there are clusters
+  std::size_t sampled_ = 0;  // number of parts from sampled links
+  std::size_t above_ = 0;    // number of clusters and input faces, if there are clusters
   std::size_t clusters_ = 0;
-  std::vector<Moments> sent_, arrived_;           // scratch of apply(), kept because it is asked for many times
-  std::vector<double> sent_bins_, arrived_bins_;  // of the clusters, direction by direction
+  std::vector<Moments> sent_, arrived_;           // scratch memory of apply(), which is called many times
+  std::vector<double> sent_bins_, arrived_bins_;  // by cluster and direction
 };
 
 }  // namespace radiosity

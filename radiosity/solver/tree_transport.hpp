@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Transport tree by tree: the light that one input face receives from all others, or sends to them, without the rest of M.
-// A tree is an input face with all the nodes below it. Gauss-Seidel gathers into one tree after the other, Southwell shoots
-// from the one with the most unshot power; the sum over all trees of either is one application of Transport. What is shot waits at the
-// nodes where it arrives until their tree receives it, so a shot costs what it carries, however large the trees are that it reaches.
+// Transport tree by tree: the light that one input face receives from all others, or sends to them, without the rest of M. A tree is an
+// input face with all nodes below it. Gauss-Seidel gathers into one tree after the other; Southwell shoots from the tree with the most
+// unshot power. The sum of either over all trees is one application of Transport. Shot light waits at the nodes where it arrives until
+// their tree receives it, so the cost of a shot does not depend on the size of the trees that it reaches.
 
 #include <cstddef>
 #include <cstdint>
@@ -19,23 +19,23 @@ namespace radiosity {
 
 class TreeTransport {
  public:
-  // The reference must outlive the operator.
+  // `transport` must outlive the operator.
   explicit TreeTransport(const Transport& transport);
 
   [[nodiscard]] std::uint32_t trees() const { return static_cast<std::uint32_t>(nodes_.size()); }
   // The nodes of a tree, parents before children.
   [[nodiscard]] std::span<const std::uint32_t> nodes(std::uint32_t tree) const { return nodes_[tree]; }
 
-  // From now on the tree sends what its leaves radiate by x.
+  // From now on the tree sends the radiosities x of its leaves.
   void send(std::uint32_t tree, const std::vector<double>& x) {
     const auto all = nodes_[tree];
     for (std::size_t part = 0; part < parts_.size(); ++part) {
       for (std::size_t k = all.size(); k-- > 0;) { transport_->pull(part, all[k], x, parts_[part].sent); }
     }
   }
-  // Writes into y what arrives at the leaves of the tree from what all trees send.
+  // Writes into y the light that arrives at the leaves of the tree from all trees.
   void gather(std::uint32_t tree, std::vector<double>& y);
-  // Brings what this tree sends to the nodes at the other ends of its links, and tells reached(tree, power) of each.
+  // Carries what this tree sends to the other ends of its links; calls reached(tree, power) for each of these.
   template <class Reached>
   void shoot(std::uint32_t tree, const Reached& reached) {
     for (std::size_t number = 0; number < parts_.size(); ++number) {
@@ -52,10 +52,10 @@ class TreeTransport {
       }
     }
   }
-  // Writes into y what has been shot at the leaves of the tree since the last call.
+  // Writes into y the light that has been shot at the leaves of the tree since the last call.
   void receive(std::uint32_t tree, std::vector<double>& y) { collect(tree, y); }
 
-  // What it costs to gather into the tree, or to receive and shoot: its nodes and the ends of links.
+  // The cost of gathering into the tree, or of receiving and shooting: its nodes plus its link ends.
   [[nodiscard]] std::size_t work(std::uint32_t tree) const {
     std::size_t work = nodes_[tree].size();
     for (const Part& part : parts_) { work += part.links[tree].size(); }
@@ -63,7 +63,7 @@ class TreeTransport {
   }
 
  private:
-  // Numbers in groups: all numbers one group after the other, and where each group begins.
+  // Numbers sorted by group, with the index of the first number of each group.
   class Groups {
    public:
     Groups() = default;
@@ -87,17 +87,17 @@ class TreeTransport {
   };
 
   struct Part {
-    Groups links;                                   // of each tree
-    std::vector<Transport::Moments> sent, arrived;  // arrived: shot and not yet received
+    Groups links;                                   // by tree
+    std::vector<Transport::Moments> sent, arrived;  // arrived: shot but not yet received
   };
 
-  // Pushes what has arrived at the nodes of a tree into y and leaves nothing behind.
+  // Pushes the arrived light of a tree's nodes into y and clears it.
   void collect(std::uint32_t tree, std::vector<double>& y);
 
   const Transport* transport_;
-  std::vector<std::uint32_t> tree_;  // of each node
-  Groups nodes_;                     // of each tree
-  std::vector<Part> parts_;          // as those of the operator
+  std::vector<std::uint32_t> tree_;  // by node
+  Groups nodes_;                     // by tree
+  std::vector<Part> parts_;          // same parts as the operator
 };
 
 }  // namespace radiosity

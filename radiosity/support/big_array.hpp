@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The arrays of a run that grow with its nodes, links, pairs and rays: where they lie is the caller's choice (Options::arrays). An array
-// passes its memory on when it is moved; a copy lies on the heap, so that it may outlive the memory of its original.
+// Arrays that grow with the nodes, links, pairs and rays of a run. The caller may choose their memory (Options::arrays). A moved array
+// keeps its memory; a copy is on the heap, so that it may outlive the memory of its original.
 
 #include <cstddef>
 #include <memory>
@@ -20,7 +20,7 @@ class ArrayAllocator {
   using propagate_on_container_swap = std::true_type;
 
   ArrayAllocator() = default;
-  ArrayAllocator(std::pmr::memory_resource* memory) : memory_{memory} {}  // implicit, as allocators are; null: the heap
+  ArrayAllocator(std::pmr::memory_resource* memory) : memory_{memory} {}  // implicit, as for std allocators; null: the heap
   template <class U>
   ArrayAllocator(const ArrayAllocator<U>& other) : memory_{other.memory()} {}
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The greatest of values that change one by one.
+// The maximum of values that change one at a time.
 
 #include <cstddef>
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace radiosity {
 
-// A tournament: the winner of each match between two values is kept, and a value that changes plays its matches again, log n of them.
+// A tournament tree: the winner of each match between two values is stored; when a value changes, its log n matches are repeated.
 class Greatest {
  public:
   explicit Greatest(std::vector<double> values) : values_{std::move(values)}, winner_(2 * values_.size(), 0) {
@@ -22,7 +22,7 @@ class Greatest {
     values_[i] = value;
     for (std::size_t match = (i + values_.size()) / 2; match > 0; match /= 2) { winner_[match] = winner(match); }
   }
-  // Of equal ones the first. Requires a value.
+  // Index of the maximum, the first one of equal values. Requires at least one value.
   [[nodiscard]] std::uint32_t index() const { return winner_[1]; }
 
  private:
@@ -32,7 +32,7 @@ class Greatest {
   }
 
   std::vector<double> values_;
-  std::vector<std::uint32_t> winner_;  // of the match i between those of 2 i and 2 i + 1; the last half are the values themselves
+  std::vector<std::uint32_t> winner_;  // winner of match i between those of 2 i and 2 i + 1; the second half are the values themselves
 };
 
 }  // namespace radiosity

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// One thing that a run did not do, because the scene does not need it.
+// A shortcut: something that a run did not do because the scene does not need it.
 
 #include <string>
 
@@ -11,7 +11,7 @@ struct LeftOut {
   std::string what;
   std::string why;
   std::string saved;
-  double seconds = 0.0;  // of CPU time that were saved, about; 0: not known
+  double seconds = 0.0;  // approximate CPU time saved; 0: unknown
 };
 
 }  // namespace radiosity

@@ -45,7 +45,7 @@ HALFLIGHT_INLINE std::uint64_t MemoryBudget::peak(const Counts& counts) const {
   constexpr std::uint64_t node = 2400, link = 48, shape = 130, pair = 30, ray = 150, list = 264, batch = 1 << 14;
   const std::uint64_t counted = fixed + node * counts.nodes + (link + (a_posteriori ? shape : 0)) * counts.links + pair * counts.pairs +
                                 list * std::min(batch, counts.pairs) + 2 * counts.occluders + ray * counts.rays;
-  return counted + counted / 100;  // tables of few rows take some more than their rows
+  return counted + counted / 100;  // tables of few rows take somewhat more than their rows
 }
 
 }  // namespace radiosity

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Deterministic parallelism: the work is cut into blocks by index, each block writes only its own results, and
-// whoever sums them does so in index order. So the bits of a result never depend on the number of threads.
+// Deterministic parallelism: the work is divided into blocks by index, each block writes only its own results, and sums are
+// made in index order. So the bits of a result never depend on the number of threads.
 //
-// A thread that the system cannot start is done without: the others do its part. What a body throws (memory that ran out) ends the loop
-// early and is thrown again on the calling thread once all threads have ended; of several, one of them. In a program that is compiled
-// without exceptions both remain what the platform makes of them: it ends the program.
+// If the system cannot start a thread, the others do its part. An exception of a body (out of memory) ends the loop early and is rethrown
+// on the calling thread once all threads have ended; if there are several, one of them. In a program compiled without exceptions, both
+// cases end the program.
 
 #include <algorithm>
 #include <atomic>
@@ -29,10 +29,10 @@ namespace radiosity {
 
 namespace detail {
 
-// What the first body threw that did, on its way to the caller of the loop.
+// Passes the first exception of a body on to the caller of the loop.
 class Thrown {
  public:
-  // Calls body(); false when it threw.
+  // Calls body(); returns false if it threw.
   template <class Body>
   [[nodiscard]] bool call(const Body& body) {
 #if defined(__cpp_exceptions)
@@ -50,7 +50,7 @@ class Thrown {
   }
   [[nodiscard]] bool any() const { return any_.load(std::memory_order_relaxed); }
 
-  // Once all threads have ended.
+  // To be called once all threads have ended.
   void rethrow() const {
 #if defined(__cpp_exceptions)
     if (first_) { std::rethrow_exception(first_); }
@@ -73,7 +73,7 @@ std::size_t start_threads(std::vector<std::jthread>& pool, std::size_t count, co
     while (pool.size() < count) {
       pool.emplace_back([&work] { work(); });
     }
-  } catch (const std::system_error&) {  // no more threads, or no stack for one
+  } catch (const std::system_error&) {  // no more threads, or no memory for a stack
   } catch (const std::bad_alloc&) {}
 #else
   pool.reserve(count);
@@ -101,7 +101,7 @@ void parallel_for(std::size_t count, unsigned threads, const Body& body, std::si
         for (std::size_t i = first; i < last; ++i) { body(i); }
       }
     });
-    if (!done) { next.store(count, std::memory_order_relaxed); }  // nothing is left to do for the others
+    if (!done) { next.store(count, std::memory_order_relaxed); }  // leave no blocks for the other threads
   };
   const std::size_t blocks = (count + block - 1) / block;
   const std::size_t workers = std::min<std::size_t>(threads, blocks);
@@ -113,8 +113,8 @@ void parallel_for(std::size_t count, unsigned threads, const Body& body, std::si
   thrown.rethrow();
 }
 
-// Rounds of work, one after the other: body(round, i) once for each i in [0, counts[round]), in any order within a round. What one call
-// writes no other call of the same round may touch.
+// Rounds of work, one after the other: calls body(round, i) once for each i in [0, counts[round]), in any order within a round. No two
+// calls of a round may write the same data.
 template <class Body>
 void parallel_rounds(const std::vector<std::size_t>& counts, unsigned threads, const Body& body) {
   std::size_t most = 1;
@@ -134,7 +134,7 @@ void parallel_rounds(const std::vector<std::size_t>& counts, unsigned threads, c
       });
       if (workers > 1) { barrier.arrive_and_wait(); }
     }
-    if (workers > 1) { barrier.arrive_and_drop(); }  // after a throw some leave a round earlier than others, who must not wait for them
+    if (workers > 1) { barrier.arrive_and_drop(); }  // after an exception some threads leave early, and the others must not wait for them
   };
   {
     std::vector<std::jthread> pool;

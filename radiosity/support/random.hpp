@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Random numbers that are a pure function of what they are for: a sample is hashed from the identity of its
-// nodes or its point, never drawn from a shared stream, so results do not depend on the order of work.
+// Random numbers that are a pure function of their purpose: a sample is hashed from the identity of its nodes or its point,
+// never drawn from a shared stream, so results do not depend on the order of work.
 
 #include <cmath>
 #include <cstdint>
@@ -21,14 +21,14 @@ namespace radiosity {
   return x ^ (x >> 31);
 }
 
-// The stream of numbers that belongs to the key (a, b).
+// The stream of numbers for the key (a, b).
 class Random {
  public:
   constexpr Random(std::uint64_t seed, std::uint64_t a, std::uint64_t b = 0) : state_{scramble(scramble(scramble(seed) ^ a) ^ b)} {}
 
   [[nodiscard]] constexpr std::uint64_t bits() { return scramble(state_++); }
 
-  // The next `count` numbers are drawn elsewhere: bits() of them are scramble(s), scramble(s + 1), ... of the s that this returns.
+  // Skips `count` numbers, which are drawn elsewhere: their bits() are scramble(s), scramble(s + 1), ... for the returned s.
   [[nodiscard]] constexpr std::uint64_t pass(std::uint64_t count) {
     state_ += count;
     return state_ - count;
@@ -52,7 +52,7 @@ struct Tangents {
   return {{1.0 + sign * n.x * n.x * a, sign * b, -sign * n.x}, {b, sign + n.y * n.y * a, -n.y}};
 }
 
-// A unit direction about the unit normal n, with density cos(theta) / pi.
+// A unit direction about the unit normal n, with density cos(theta) / pi; u and v in [0, 1).
 [[nodiscard]] inline glm::dvec3 cosine_direction(const glm::dvec3& n, double u, double v) {
   const auto [s, t] = orthonormal(n);
   const double radius = std::sqrt(u);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Points in the unit cube of four dimensions that fill it far more evenly than random ones: Sobol's sequence (Sobol 1967; direction
-// numbers of Joe and Kuo 2008), scrambled by random digits (Owen 1995). Each scramble is an unbiased estimate of an integral by itself, so
-// the spread of some of them is the standard error of their mean; the error of each falls almost like 1 / n instead of 1 / sqrt(n).
+// Low-discrepancy points in the unit cube of four dimensions: Sobol's sequence (Sobol 1967; direction numbers of Joe and Kuo 2008),
+// scrambled by random digits (Owen 1995). Each scramble gives an unbiased estimate of an integral, so the spread of several scrambles
+// gives the standard error of their mean; the error of each decreases almost like 1 / n instead of 1 / sqrt(n).
 //
-// The scramble is a hash that lets each bit depend on the higher ones alone (Laine and Karras 2011, constants of Burley 2020).
+// The scramble is a hash in which each bit depends only on the higher ones (Laine and Karras 2011, constants of Burley 2020).
 
 #include <array>
 #include <cstddef>
@@ -35,11 +35,11 @@ namespace detail {
   return reverse_bits(x);
 }
 
-// Direction numbers of each bit of the index: dimension 0 is the radical inverse; the others belong to the polynomials x + 1, x^2 + x + 1
-// and x^3 + x + 1.
+// Direction numbers for each bit of the index: dimension 0 is the radical inverse; the others belong to the polynomials
+// x + 1, x^2 + x + 1 and x^3 + x + 1.
 [[nodiscard]] constexpr std::array<std::array<std::uint32_t, 4>, 32> sobol_directions() {
   constexpr std::uint32_t degree[4] = {0, 1, 2, 3};
-  constexpr std::uint32_t inner[4] = {0, 0, 1, 1};  // coefficients between the first and the last
+  constexpr std::uint32_t inner[4] = {0, 0, 1, 1};  // coefficients between the first and the last one
   constexpr std::uint32_t first[4][3] = {{0, 0, 0}, {1, 0, 0}, {1, 3, 0}, {1, 3, 1}};
   std::array<std::array<std::uint32_t, 4>, 32> v{};
   for (std::uint32_t k = 0; k < 32; ++k) { v[k][0] = 0x80000000u >> k; }
@@ -62,7 +62,7 @@ inline constexpr std::array<std::array<std::uint32_t, 4>, 32> sobol_direction = 
 
 }  // namespace detail
 
-// One scrambled sequence: the scramble is chosen by the key, results are a pure function of key and index.
+// One scrambled sequence. The key chooses the scramble; points are a pure function of key and index.
 class Sobol4 {
  public:
   explicit constexpr Sobol4(std::uint64_t seed, std::uint64_t key = 0) {
@@ -91,8 +91,8 @@ class Sobol4 {
   std::array<std::uint32_t, 4> keys_{};
 };
 
-// The numbers of path `index` of a family: the first eight, which decide most, are coordinates of two Sobol points, all further ones are
-// independent. The second point is that of another index (Burley 2020), so that both together are even, too.
+// The numbers of path `index` of a family: the first eight, which matter most, are coordinates of two Sobol points; all further ones are
+// independent. The second point has a permuted index (Burley 2020), so that both points together are well distributed, too.
 class PathNumbers {
  public:
   PathNumbers(const Sobol4& first, const Sobol4& second, std::uint32_t index, Random rest)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The edges of faces as a sum in which an edge and the same edge the other way round cancel: where nothing is left the faces close.
+// A sum of directed edges of faces, in which an edge and its reverse cancel: if nothing remains, the faces form a closed surface.
 
 #include <algorithm>
 #include <array>
@@ -22,16 +22,16 @@ namespace radiosity {
 
 namespace detail {
 
-inline constexpr double enclosure_slack = 1e-9;  // of the scene
+inline constexpr double enclosure_slack = 1e-9;  // relative to the scene
 inline constexpr std::size_t most_enclosure_parts = 1000;
 
-// Sums up the edges of faces with their direction; what does not cancel is the border.
+// Sums up the directed edges of faces; the edges that do not cancel are the border.
 class EdgeSum {
  public:
   void add(std::span<const glm::dvec3> contour) {
     for (std::size_t i = 0; i < contour.size(); ++i) { add(corner(contour[i]), corner(contour[(i + 1) % contour.size()])); }
   }
-  // Corners of the same number are one.
+  // The number of a corner; equal corners have equal numbers.
   [[nodiscard]] std::uint32_t corner(const glm::dvec3& p) {
     const auto [at, is_new] = corners_.try_emplace(
         {std::llround(std::ldexp(p.x, 30)), std::llround(std::ldexp(p.y, 30)), std::llround(std::ldexp(p.z, 30))}, positions_.size());
@@ -39,8 +39,8 @@ class EdgeSum {
     return static_cast<std::uint32_t>(at->second);
   }
   using Edge = std::array<std::uint32_t, 2>;
-  // The edges of which a part does not cancel, when each is cut at the corners of others that lie on it; nothing when there are too many to
-  // look at.
+  // The edges of which a part does not cancel, after each has been cut at the corners of others that lie on it; nothing if there are too
+  // many.
   [[nodiscard]] std::optional<std::set<Edge>> border() const {
     std::vector<std::pair<Edge, int>> rest;
     std::vector<std::uint32_t> ends;

@@ -37,11 +37,11 @@ namespace detail {
 // A convex face.
 struct FrontFace {
   Polygon contour;
-  glm::dvec3 normal{0.0};  // of length 1
+  glm::dvec3 normal{0.0};  // unit length
   std::uint32_t object = 0;
 };
 
-// The fronts of a surface; those of no area are left out.
+// Adds the faces of a surface that belong to sheets, except those without area.
 HALFLIGHT_INLINE void add_fronts(const Surface& surface, std::uint32_t object, std::vector<FrontFace>& faces) {
   for (const brep::FaceId f : brep::faces(surface.brep)) {
     if (surface.brep.data(f).sheet == brep::no_sheet) { continue; }
@@ -52,7 +52,7 @@ HALFLIGHT_INLINE void add_fronts(const Surface& surface, std::uint32_t object, s
   }
 }
 
-// Does an edge of `a` pass through the inside of `b`? What touches does not.
+// Does an edge of `a` pass through the inside of `b`? Touching does not count.
 [[nodiscard]] HALFLIGHT_INLINE bool pierces(const FrontFace& a, const FrontFace& b) {
   for (std::size_t i = 0; i < a.contour.size(); ++i) {
     const glm::dvec3& p = a.contour[i];
@@ -71,7 +71,7 @@ HALFLIGHT_INLINE void add_fronts(const Surface& surface, std::uint32_t object, s
   return false;
 }
 
-// Does any of the first `walls` faces cross another face?
+// Does any of the first `walls` faces intersect another face?
 [[nodiscard]] HALFLIGHT_INLINE bool any_crossing(const std::vector<FrontFace>& faces, std::size_t walls) {
   std::vector<raycast::Box> boxes;
   for (const FrontFace& face : faces) {
@@ -96,11 +96,12 @@ HALFLIGHT_INLINE void add_fronts(const Surface& surface, std::uint32_t object, s
   return false;
 }
 
-// How often the faces wind around x, which counts half for a face that x lies on: the solid angle of each (van Oosterom and Strackee 1983).
+// The winding number of the faces around x, with half the weight for a face that x lies on: from the solid angle of each (van Oosterom
+// and Strackee 1983).
 [[nodiscard]] HALFLIGHT_INLINE double winding(std::span<const FrontFace> faces, const glm::dvec3& x) {
   double angle = 0.0;
   for (const FrontFace& face : faces) {
-    if (std::abs(glm::dot(face.normal, x - face.contour[0])) <= enclosure_slack) { continue; }  // seen edge on, or x lies on it
+    if (std::abs(glm::dot(face.normal, x - face.contour[0])) <= enclosure_slack) { continue; }  // seen edge-on, or x lies on it
     const glm::dvec3 a = glm::normalize(face.contour[0] - x);
     for (std::size_t k = 2; k < face.contour.size(); ++k) {
       const glm::dvec3 b = glm::normalize(face.contour[k - 1] - x);
@@ -115,7 +116,7 @@ HALFLIGHT_INLINE void add_fronts(const Surface& surface, std::uint32_t object, s
   return std::accumulate(face.contour.begin(), face.contour.end(), glm::dvec3{0.0}) / static_cast<double>(face.contour.size());
 }
 
-// The faces of its bounds, for a solid that is curved or has many faces.
+// The six sides of a box, used for a solid that is curved or has many faces.
 [[nodiscard]] HALFLIGHT_INLINE std::vector<FrontFace> faces_of_box(const raycast::Box& box, std::uint32_t object) {
   std::vector<FrontFace> faces;
   for (int axis = 0; axis < 3; ++axis) {
@@ -136,7 +137,7 @@ HALFLIGHT_INLINE void add_fronts(const Surface& surface, std::uint32_t object, s
   return faces;
 }
 
-// One face of each set of faces that hang together by edges of which each belongs to two faces.
+// One face of each set of faces connected by edges with exactly two faces.
 [[nodiscard]] HALFLIGHT_INLINE std::vector<std::size_t> one_of_each_part(const std::vector<FrontFace>& faces, EdgeSum& corners) {
   std::map<std::array<std::uint32_t, 2>, std::vector<std::uint32_t>> of_edge;
   for (std::uint32_t i = 0; i < faces.size(); ++i) {
@@ -158,7 +159,7 @@ HALFLIGHT_INLINE void add_fronts(const Surface& surface, std::uint32_t object, s
   return parts;
 }
 
-// How much of a convex polygon a convex polygon in the same plane covers, both counter-clockwise about `normal`.
+// The area of a convex polygon that is covered by another convex polygon in the same plane, both counter-clockwise about `normal`.
 [[nodiscard]] HALFLIGHT_INLINE double covered_area(Polygon polygon, const Polygon& cover, const glm::dvec3& normal) {
   Polygon part;
   for (std::size_t i = 0; i < cover.size() && polygon.size() > 2; ++i) {
@@ -212,7 +213,8 @@ HALFLIGHT_INLINE EdgeSum edges_of(const std::vector<FrontFace>& faces) {
   return sum;
 }
 
-// Faces without a border that are all or nearly all of these sheets; those at a border may lie on the others. Empty when there are none.
+// Faces without a border that include all, or nearly all, of these sheets; sheets at a border may lie on the others. Empty if there are
+// none.
 HALFLIGHT_INLINE std::vector<FrontFace> closed_walls(const std::vector<Surface>& surfaces, const std::vector<std::uint32_t>& sheets) {
   std::vector<FrontFace> faces = fronts_of(surfaces, sheets);
   if (faces.size() < 4) { return {}; }
@@ -236,7 +238,7 @@ HALFLIGHT_INLINE std::vector<FrontFace> closed_walls(const std::vector<Surface>&
   return faces;
 }
 
-// Does a solid lie within the walls, on or before them? Then its faces, or those of its bounds, are added to `all`.
+// Does a solid lie within the walls, or on their inner side? If so, adds its faces, or those of its bounds, to `all`.
 HALFLIGHT_INLINE bool add_within(const Surface& solid, std::uint32_t number, std::span<const FrontFace> walls,
                                  std::vector<FrontFace>& all) {
   std::vector<FrontFace> own;

@@ -32,7 +32,7 @@
 
 namespace radiosity {
 
-// The bounds of all objects, to find those near a patch.
+// The bounds of all objects, for finding those near a patch.
 class Neighbourhood {
  public:
   Neighbourhood() = default;
@@ -42,10 +42,10 @@ class Neighbourhood {
       if (scene.object(i).inside()) { rooms_.push_back(i); }
     }
     tree_ = raycast::Bvh{boxes_};
-    margin_ = 1e-6 * scene.diameter();  // far beyond the tolerance of occlusion (raycast/scene.hpp)
+    margin_ = 1e-6 * scene.diameter();  // far more than the tolerance of occlusion (raycast/scene.hpp)
   }
 
-  // Can anything lie on or over this patch of the object? Not when the bounds of all other objects stay clear of it.
+  // Can anything lie on or over this patch of the object? Not if the bounds of all other objects stay clear of it.
   [[nodiscard]] bool may_be_buried(std::uint32_t object, const Patch& patch) const {
     if (rooms_.size() > 1 || (rooms_.size() == 1 && rooms_.front() != object)) { return true; }
     raycast::Box box;
@@ -71,7 +71,7 @@ class Neighbourhood {
   }
 
  private:
-  std::vector<raycast::Box> boxes_;  // one an object
+  std::vector<raycast::Box> boxes_;  // by object
   std::vector<std::uint32_t> rooms_;
   raycast::Bvh tree_;
   double margin_ = 0.0;
@@ -83,7 +83,7 @@ class ExposureMeasurement {
   ExposureMeasurement(Exposure& exposure, const SceneView& scene, unsigned threads, std::uint64_t seed)
       : to_{exposure}, scene_{scene}, threads_{threads}, seed_{seed}, neighbourhood_{scene.objects} {}
 
-  // Measures the leaves from this node on.
+  // Measures the leaves among the nodes from `first_new` on.
   void measure_leaves(std::size_t first_new) {
     const Hierarchy& hierarchy = scene_.hierarchy;
     const std::size_t new_nodes = hierarchy.size() - first_new;
@@ -99,7 +99,7 @@ class ExposureMeasurement {
     for (const std::uint32_t i : nodes) { to_.area[i] = to_.whole[i] * (to_.drawn[to_.drawn_of[i]].count() / 256.0); }
   }
 
-  // Areas and centroids of the inner nodes, from those of their children.
+  // Sets areas and centroids of the inner nodes from their children.
   void sum_up() {
     const Hierarchy& hierarchy = scene_.hierarchy;
     to_.buried_leaves = 0;
@@ -121,7 +121,7 @@ class ExposureMeasurement {
     to_.all_buried = std::none_of(to_.area.begin(), to_.area.end(), [](double a) { return a > 0.0; });
   }
 
-  // Draws the exposed points of partly buried patches that have none.
+  // Draws exposed points for partly buried patches that have none.
   void draw_partly_buried() {
     std::vector<std::uint32_t> nodes;
     for (std::uint32_t i = 0; i < scene_.hierarchy.size(); ++i) {
@@ -132,12 +132,12 @@ class ExposureMeasurement {
   }
 
  private:
-  // Are some of 16 stratified points buried, and some not? The area is that of the leaf then, until more points have been drawn.
+  // Are some, but not all, of 16 stratified points buried? Then the area is that of the whole leaf until more points have been drawn.
   [[nodiscard]] bool measure_leaf(std::size_t i) {
     const Node& node = scene_.hierarchy[i];
     const Surface& surface = scene_.surfaces[node.object];
     const Patch& patch = scene_.patches[i];
-    // A separate polygon is all that its quad-tree knows of the surface.
+    // A separate polygon counts with its own area, because its quad-tree does not follow the curved surface.
     const bool curved = node.deviation > 0.0 && surface.topology == Topology::shared;
     to_.whole[i] = curved ? curved_area(scene_.objects.object(node.object), scene_.sheet(i), patch.contour)
                           : glm::length(brep::vector_area(surface.brep, node.face));
@@ -154,7 +154,7 @@ class ExposureMeasurement {
     return count > 0 && count < 16;
   }
 
-  // Draws the points of nodes that have none yet.
+  // Draws points for nodes that have none yet.
   void draw(const std::vector<std::uint32_t>& nodes) {
     const std::size_t first = to_.drawn.size();
     to_.drawn.resize(first + nodes.size());

@@ -28,7 +28,7 @@ namespace radiosity {
 
 namespace detail {
 
-// The least distance of x to the edges of a convex polygon, in its plane; negative outside.
+// The least distance of x from the edges of a convex polygon, in its plane; negative outside.
 [[nodiscard]] HALFLIGHT_INLINE double depth_within(std::span<const glm::dvec3> polygon, const glm::dvec3& normal, const glm::dvec3& x) {
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < polygon.size(); ++i) {
@@ -54,7 +54,8 @@ HALFLIGHT_INLINE LeafLocator::LeafLocator(const Hierarchy& hierarchy, const Patc
     for (const std::uint32_t i : faces.nodes) {
       raycast::Box box;
       for (const glm::dvec3& p : patches[i].contour) { box.extend(p); }
-      // A curved surface leaves its patch by no more than the tilt of its normals over the radius, a curved border its chords by the rim.
+      // A curved surface departs from its patch by at most the tilt of its normals times the radius, a curved border from its chords by
+      // the rim.
       boxes.push_back(box.grown(hierarchy[i].radius * (hierarchy[i].deviation + 1e-9) + hierarchy[i].rim));
     }
     faces.tree = raycast::Bvh{boxes};
@@ -66,7 +67,7 @@ HALFLIGHT_INLINE void LeafLocator::add_fan(std::uint32_t node) {
   if (parent.leaf() || parent.child_count != parent.corners || parent.child_count > 4) { return; }
   Fan fan;
   fan.count = parent.child_count;
-  for (std::uint32_t k = 0; k < fan.count; ++k) {  // corners of child k: corner k, the middle of edge k, the middle, that of edge k - 1
+  for (std::uint32_t k = 0; k < fan.count; ++k) {  // corners of child k: corner k, midpoint of edge k, centre, midpoint of edge k - 1
     const Polygon& child = (*patches_)[parent.first_child + k].contour;
     if (child.size() != 4 || (k > 0 && child[2] != fan.middle)) { return; }
     fan.middle = child[2];
@@ -122,7 +123,7 @@ HALFLIGHT_INLINE std::uint32_t LeafLocator::child_at(std::uint32_t node, const g
       if (before >= 0.0 && after < 0.0) { return first + k; }
       before = after;
     }
-    return first;  // the middle itself
+    return first;  // the point is the centre itself
   }
   std::uint32_t best = first;
   double best_depth = depth(best, x);

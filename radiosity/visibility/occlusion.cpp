@@ -30,7 +30,7 @@ HALFLIGHT_INLINE void Patches::extend(unsigned threads) {
   parallel_for(patches_.size() - first, threads, [&](std::size_t i) {
     const auto index = static_cast<std::uint32_t>(first + i);
     const Node& node = (*hierarchy_)[index];
-    if (node.is_cluster()) { return; }  // no patch
+    if (node.is_cluster()) { return; }  // clusters have no patch
     std::vector<Polygon> parts;
     if (node.in_parts()) {
       for (std::uint32_t k = 0; k < node.child_count; ++k) { parts.push_back(contour(*surfaces_, *hierarchy_, node.first_child + k)); }

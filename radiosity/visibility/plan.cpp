@@ -46,7 +46,7 @@ HALFLIGHT_INLINE bool on_the_hull(const Extremes& scene, const SurfaceBRep& own)
   return true;
 }
 
-// What the materials alone tell.
+// Sets what follows from the materials alone.
 HALFLIGHT_INLINE void look_at_materials(const Scene& scene, Plan& plan) {
   bool grey = true;
   for (const InputSurface& s : radiosity::surfaces(scene)) {
@@ -66,8 +66,8 @@ HALFLIGHT_INLINE void look_at_materials(const Scene& scene, Plan& plan) {
   }
 }
 
-// Finds the outer surfaces, the objects that can stand between two patches, and whether the scene is closed. Returns whether no room can
-// stand between any two patches: a convex room with flat walls cannot, nor can a curved one that is alone.
+// Finds the outer surfaces and the objects that can stand between two patches, and whether the scene is closed. Returns whether no room
+// can stand between any two patches: a convex room with flat walls cannot, nor can a curved convex one that is the only object.
 [[nodiscard]] HALFLIGHT_INLINE bool look_at_objects(const std::vector<Surface>& surfaces, Plan& plan) {
   const Surface* room = nullptr;
   bool holes = false;
@@ -96,7 +96,7 @@ HALFLIGHT_INLINE void look_at_materials(const Scene& scene, Plan& plan) {
   return rooms_clear;
 }
 
-// Whether light that goes round in a closed scene fades, and fast enough to be traced.
+// Does light decay in a closed scene, and fast enough to be path-traced?
 HALFLIGHT_INLINE void look_at_losses(const Scene& scene, Plan& plan) {
   for (const Material& material : scene.materials) {
     const Color& rho = material.reflectance;

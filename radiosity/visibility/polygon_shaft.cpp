@@ -28,7 +28,7 @@ HALFLIGHT_INLINE bool Shaft::misses(std::span<const glm::dvec3> corners) const {
   for (const glm::dvec3& x : corners) { box.extend(x); }
   for (int k = 0; k < 3; ++k) {
     if (box.hi[k] <= box_.lo[k] + slack_ || box.lo[k] >= box_.hi[k] - slack_) {
-      // Touching: of a flat shaft along an axis this says nothing, the planes decide.
+      // The boxes only touch. For a shaft that is flat along this axis that proves nothing, and the planes decide.
       if (box_.hi[k] - box_.lo[k] > 4.0 * slack_) { return true; }
     }
   }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// What can stand between two convex polygons, proven in double precision: the planes of their shaft, the convex hull of both.
+// Proves in double precision what can stand between two convex polygons, by the planes of their shaft, the convex hull of both.
 
 #include <algorithm>
 #include <span>
@@ -15,17 +15,17 @@
 
 namespace radiosity {
 
-// The shaft between two convex polygons that lie above each other's horizon: its planes have both on their inner side.
+// The shaft between two convex polygons that lie above each other's horizon. Both polygons lie on the inner side of all its planes.
 class Shaft {
  public:
   Shaft(std::span<const glm::dvec3> p, std::span<const glm::dvec3> q, double slack);
 
-  // Is it certain that a convex body with these corners and bounds stands in no segment between the two, except by touching it?
+  // Is it certain that a convex body with these corners (or this box) meets no segment between the two, except by touching it?
   [[nodiscard]] bool misses(std::span<const glm::dvec3> corners) const;
   [[nodiscard]] bool misses(const raycast::Box& box) const;
 
  private:
-  // Planes through an edge of `p` that have all of both on one side, the plane of `p` among them.
+  // Adds planes through an edge of `p` with both polygons on one side, including the plane of `p`.
   void support(std::span<const glm::dvec3> p, std::span<const glm::dvec3> q);
   void offer(const HalfSpace& plane, std::span<const glm::dvec3> p, std::span<const glm::dvec3> q) {
     const auto inside = [&](const glm::dvec3& x) { return plane.height(x) >= -0.25 * slack_; };

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Everything of a run that comes before light: the frame, the objects compiled for rays, one BRep an object, and the plan of
-// what the scene does not need.
+// Everything of a run that comes before light: the frame, the objects compiled for rays, one BRep per object, and the plan of shortcuts.
 
 #include <cstdint>
 #include <optional>
@@ -28,13 +27,13 @@ namespace radiosity {
 struct Prepared {
   Frame frame;
   raycast::Scene objects;         // in the frame
-  std::vector<Surface> surfaces;  // boundary of each object, unrefined; they point into `objects`
+  std::vector<Surface> surfaces;  // unrefined boundary of each object; refers to `objects`
   Plan plan;
 };
 
 struct PrepareResult {
   std::optional<Prepared> prepared;
-  std::vector<std::string> faults;  // every reason why there is none
+  std::vector<std::string> faults;  // the reasons, if `prepared` is empty
 };
 
 [[nodiscard]] inline PrepareResult prepare(const Scene& scene, bool shortcuts = true) {
@@ -46,7 +45,7 @@ struct PrepareResult {
   std::uint32_t first_surface = 0;
   for (std::uint32_t o = 0; o < prepared.objects.size(); ++o) {
     const raycast::Box box = prepared.objects.object(o).bounds();
-    if (!(glm::length(box.hi - box.lo) > raycast::tol_vanishing)) {  // the frame has a size between 1 and 2
+    if (!(glm::length(box.hi - box.lo) > raycast::tol_vanishing)) {  // the size of the frame is between 1 and 2
       sentences.push_back(
           "object '" + scene.objects[o].name +
           "' is smaller than 1e-12 of the scene: beside the scene's coordinates its shape is lost in rounding; leave it out");

@@ -17,15 +17,15 @@ namespace radiosity {
 
 class Patches;
 
-// The references must outlive this; the hierarchy, and with it surfaces and patches, may grow.
+// The references must outlive this. The hierarchy may grow, and surfaces and patches with it.
 struct SceneView {
   const raycast::Scene& objects;  // in the frame
   const Plan& plan;
   const std::vector<Surface>& surfaces;  // boundary of each object
   const Hierarchy& hierarchy;            // over the faces of the boundaries
-  const Patches& patches;                // of each node
+  const Patches& patches;                // by node
 
-  // The sheet of its object on which a node lies; the node is no cluster.
+  // The sheet of its object to which a node belongs; not for clusters.
   [[nodiscard]] std::uint32_t sheet(std::size_t i) const { return hierarchy[i].surface - surfaces[hierarchy[i].object].first_surface; }
 };
 

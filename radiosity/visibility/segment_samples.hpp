@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The sixteen segments of one round of visibility() between two whole patches of three or four corners, drawn eight at once
-// (instruction_sets.hpp): the same numbers as segment by segment.
+// Draws the sixteen segments of one round of visibility() between two whole patches of three or four corners, eight at a time
+// (instruction_sets.hpp); with the same numbers as one by one.
 
 #include <array>
 #include <cstdint>
@@ -16,7 +16,7 @@
 
 namespace radiosity::detail {
 
-// The triangles around corner 0 of a patch, made once for many samples.
+// The triangles around corner 0 of a patch, computed once for many samples.
 struct SamplePieces {
   // Requires fits(patch).
   explicit SamplePieces(const Patch& patch);
@@ -27,16 +27,16 @@ struct SamplePieces {
   glm::dvec3 origin{0.0}, normal{0.0};
   std::array<glm::dvec3, 3> edges{};  // from the origin to the other corners
   double whole = 0.0;                 // area of the patch
-  double split = 0.0;                 // where the second triangle begins, in area; infinite without it
+  double split = 0.0;                 // area at which the second triangle begins; infinite if there is none
   std::array<double, 2> area{};
 };
 
 struct SampledSegments {
-  raycast::Segments16 segments;     // origins and directions alone
+  raycast::Segments16 segments;     // only origins and directions are set
   std::array<double, 16> weight{};  // cos cos / r^2, softened; 0 below a horizon
 };
 
-// Numbers are those of the Random that is in `state` now; it has advanced by 64 after them. Segment i runs from cell i of p to cell
+// Uses the numbers of a Random with this `state`, which must be advanced by 64 afterwards. Segment i runs from cell i of p to cell
 // opposite_cell(i, shift) of q.
 inline constexpr std::uint64_t numbers_per_round = 64;
 void draw_segments(const SamplePieces& p, const SamplePieces& q, std::uint64_t state, std::uint32_t shift, double softening,

@@ -49,7 +49,7 @@ HALFLIGHT_INLINE void part(std::span<const glm::dvec3> polygon, const HalfSpace&
   return std::all_of(polygon.begin(), polygon.end(), [&](const glm::dvec3& p) { return plane.height(p) >= 0.0; });
 }
 
-// Where a piece lies by a plane, as far as its sphere tells: 1 inside, -1 outside, 0 unknown.
+// The side of a plane on which a piece lies, according to its bounding sphere: 1 inside, -1 outside, 0 unknown.
 [[nodiscard]] HALFLIGHT_INLINE int side_of_sphere(const Piece& piece, const HalfSpace& plane) {
   constexpr double rounding = 1.0 + 1e-9;  // of heights and radii
   if (piece.square_of_radius() < 0.0) { return 0; }
@@ -67,7 +67,7 @@ HALFLIGHT_INLINE void part(std::span<const glm::dvec3> polygon, const HalfSpace&
 
 HALFLIGHT_INLINE void cut_away(std::vector<Piece>& pieces, std::span<const HalfSpace> planes) {
   const std::size_t count = pieces.size();
-  std::size_t kept = 0;  // of the old ones; new ones are appended behind them
+  std::size_t kept = 0;  // number of old pieces kept; new ones are appended behind them
   Piece buffer[2];
   for (std::size_t i = 0; i < count; ++i) {
     if (any_outside(pieces[i], planes)) {
@@ -75,10 +75,10 @@ HALFLIGHT_INLINE void cut_away(std::vector<Piece>& pieces, std::span<const HalfS
       ++kept;
       continue;
     }
-    // A piece that passes beside the common part, near one of its corners, is found out when nothing is left: it stays in one, for each
-    // further blocker meets every piece.
+    // A piece that lies outside the intersection, but near one of its corners, is recognised only when nothing remains inside: it is then
+    // kept as a whole, because every piece slows down all further blockers.
     const std::size_t before = pieces.size(), most = before + planes.size();
-    if (pieces.capacity() < most) { pieces.reserve(2 * most); }  // so that pieces stay where they are
+    if (pieces.capacity() < most) { pieces.reserve(2 * most); }  // so that pieces are not reallocated
     const Piece* rest = &pieces[i];
     for (const HalfSpace& plane : planes) {
       if (all_inside(*rest, plane)) { continue; }
@@ -101,9 +101,9 @@ HALFLIGHT_INLINE void cut_away(std::vector<Piece>& pieces, std::span<const HalfS
   pieces.erase(pieces.begin() + static_cast<std::ptrdiff_t>(kept), pieces.begin() + static_cast<std::ptrdiff_t>(count));
 }
 
-// Appends the planes through x and the edges of a convex polygon, with normals turned to where `within` holds for them. Where a polygon was
-// cut at a corner that lies on the cut but for rounding, two corners are left that are one: the edge between them has no direction, and
-// its neighbours meet there.
+// Appends the planes through x and the edges of a convex polygon, with normals oriented so that `within` holds for them. Where a polygon
+// was cut at a corner that lies on the cut up to rounding, two equal corners may result; the edge between them has no direction and is
+// skipped.
 template <class Within>
 void planes_through(const glm::dvec3& x, const Piece& polygon, const Within& within, std::vector<HalfSpace>& planes) {
   for (std::size_t i = 0; i < polygon.size(); ++i) {
@@ -131,7 +131,7 @@ HALFLIGHT_INLINE void ShadowedTarget::hide(const Blocker& blocker) {
   const glm::dvec3& x = horizon_.point;
   const HalfSpace before{target_[0], m_};
   const double height = glm::dot(blocker.normal, x - blocker.contour[0]);
-  if (std::abs(height) <= slack_) { return; }  // seen edge on
+  if (std::abs(height) <= slack_) { return; }  // seen edge-on
   const auto beside = [&](const HalfSpace& side) { return detail::all_outside(blocker.contour, side); };
   if (std::any_of(sides_.begin(), sides_.end(), beside)) { return; }
   detail::part(blocker.contour, horizon_, first_, second_);

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The exact form factor from a point to a polygon behind other polygons: what each blocker hides of the target, a convex cone with its tip
-// in the point, is cut away from it, and Lambert's contour is taken of the convex pieces that are left. No sampling, no epsilon on angles:
-// the result is continuous in the point and errs by rounding alone, some 1e-14 a blocker (compare Nishita and Nakamae 1985).
+// The exact form factor from a point to a polygon behind other polygons: the part of the target that each blocker hides, a convex cone
+// with its apex at the point, is cut away, and Lambert's contour integral is applied to the remaining convex pieces. There is no sampling
+// and no tolerance on angles, so the result is continuous in the point and has only rounding errors, some 1e-14 per blocker (compare
+// Nishita and Nakamae 1985).
 //
 // Invariant: the pieces are convex, disjoint, and together they are the visible part of the target.
 
@@ -19,7 +20,7 @@
 
 namespace radiosity {
 
-// A convex polygon, without heap up to twelve corners.
+// A convex polygon; needs no heap memory up to twelve corners.
 class Piece {
  public:
   void push_back(const glm::dvec3& p) {
@@ -30,8 +31,8 @@ class Piece {
     corners_.clear();
     square_of_radius_ = -1.0;
   }
-  // A sphere that holds it, for quick tests: the mean of the corners, and the square of the largest distance of one. Negative where
-  // bound() has not been called since the last corner was added.
+  // A bounding sphere for quick tests: the mean of the corners, and the squared largest distance of a corner. Negative if bound() has not
+  // been called since the last corner was added.
   [[nodiscard]] const glm::dvec3& centre() const { return centre_; }
   [[nodiscard]] double square_of_radius() const { return square_of_radius_; }
   void bound() {
@@ -55,47 +56,47 @@ class Piece {
 
 struct HalfSpace {
   glm::dvec3 point{0.0};
-  glm::dvec3 normal{0.0};  // into the half-space; any length
+  glm::dvec3 normal{0.0};  // points into the half-space; of any length
 
   [[nodiscard]] double height(const glm::dvec3& p) const { return glm::dot(normal, p - point); }
 };
 
 namespace detail {
 
-// Parts `polygon` at the plane: what lies in the half-space, border included, and the rest. An output without area may be left empty.
+// Splits `polygon` at the plane, into the part in the half-space, border included, and the rest. A part without area may come out empty.
 void part(std::span<const glm::dvec3> polygon, const HalfSpace& plane, Piece& inside, Piece& outside);
 
-// Cuts the common part of the half-spaces out of every piece. Those of which the sphere is known are done sooner.
+// Cuts the intersection of the half-spaces out of every piece. Faster for pieces with a bounding sphere.
 void cut_away(std::vector<Piece>& pieces, std::span<const HalfSpace> planes);
 
 }  // namespace detail
 
-// A convex planar polygon that stops light from both sides.
+// A convex planar polygon that blocks light from both sides.
 struct Blocker {
   std::span<const glm::dvec3> contour;
   glm::dvec3 normal{0.0};  // unit length
 };
 
-// Asks about one target from many points; keeps its memory.
+// Evaluates one target from many points; reuses its memory.
 class ShadowedTarget {
  public:
-  // The target turns its bright side (normal m, unit length) to the points that will ask. Distances below `slack` count as none.
+  // The target shows its front (normal m, unit length) to the points. Distances below `slack` count as zero.
   ShadowedTarget(std::span<const glm::dvec3> target, const glm::dvec3& m, std::span<const Blocker> blockers, double slack)
       : target_{target}, m_{m}, blockers_{blockers}, slack_{slack} {}
 
-  // F from x, unit normal n, to what x sees of the target.
+  // F from x, with unit normal n, to the visible part of the target.
   [[nodiscard]] double form_factor(const glm::dvec3& x, const glm::dvec3& n);
 
-  // The same in three steps, for blockers of other kinds. First: looks from x at all of the target that is above the horizon.
+  // The same in three steps, for other kinds of blockers. First: sets the view from x, with all of the target above the horizon.
   void look(const glm::dvec3& x, const glm::dvec3& n);
-  // For each blocker: takes away what a polygon hides, or what lies within all of these planes through x.
+  // Second, for each blocker: removes what a polygon hides, or what lies within all of these planes through x.
   void hide(const Blocker& blocker);
   void hide(std::span<const HalfSpace> cone) { detail::cut_away(pieces_, cone); }
-  // Nothing within this sphere hides any of it.
+  // Is it certain that nothing within this sphere hides a part of the target?
   [[nodiscard]] bool misses(const glm::dvec3& centre, double radius) const;
   [[nodiscard]] bool hidden() const { return pieces_.empty(); }
   [[nodiscard]] std::span<const Piece> pieces() const { return pieces_; }
-  // At last: the form factor of what is left.
+  // Third: the form factor of the rest.
   [[nodiscard]] double form_factor() const;
 
  private:
@@ -110,7 +111,7 @@ class ShadowedTarget {
   HalfSpace horizon_;
   std::vector<Piece> pieces_;
   std::vector<HalfSpace> planes_;
-  std::vector<HalfSpace> sides_;  // through the point and the edges of what it sees of the target, which is inside
+  std::vector<HalfSpace> sides_;  // planes through the point and the edges of the visible target, which is on their inner side
   Piece first_, second_, shade_;
 };
 

@@ -103,14 +103,15 @@ HALFLIGHT_INLINE RayCount& RayCount::operator+=(const RayCount& other) {
   return *this;
 }
 
-// Segments that arrived, by the sixteenth of the patch where they end.
+// Counts segments that arrived, by the sixteenth of the patch in which they end.
 class CellCounts {
  public:
   void add(std::uint32_t cell, bool clear) {
     ++all_[cell];
     if (clear) { ++clear_[cell]; }
   }
-  // Between the means of the cells; the noise p (1 - p) / (n - 1) of each mean is taken off. Cells of one segment do not count.
+  // Standard deviation between the means of the cells, from which the noise p (1 - p) / (n - 1) of each mean is subtracted. Cells with a
+  // single segment are ignored.
   [[nodiscard]] double spread() const {
     double n = 0.0, sum = 0.0, square = 0.0, noise = 0.0;
     for (std::size_t c = 0; c < 16; ++c) {
@@ -129,14 +130,14 @@ class CellCounts {
   std::array<std::uint16_t, 16> all_{}, clear_{};
 };
 
-// The corner of a patch that is highest above the plane of another.
+// The corner of `patch` that is highest above the plane of `above`.
 [[nodiscard]] HALFLIGHT_INLINE glm::dvec3 highest_corner(const Patch& patch, const Patch& above) {
   const auto height = [&](const glm::dvec3& x) { return glm::dot(above.normal, x); };
   return *std::max_element(patch.contour.begin(), patch.contour.end(),
                            [&](const glm::dvec3& a, const glm::dvec3& b) { return height(a) < height(b); });
 }
 
-// Do the highest corners of each patch above the other see each other? Asked for patches of which no sample is above both horizons.
+// Do the two corners that are highest above the other patch see each other? Used if no sample lies above both horizons.
 [[nodiscard]] HALFLIGHT_INLINE bool highest_corners_clear(const SceneView& scene, const raycast::OccluderList& list, const PatchEnd& p,
                                                           const PatchEnd& q) {
   const glm::dvec3 x = highest_corner(*p.patch, *q.patch);
@@ -163,7 +164,7 @@ class Rounds {
       detail::draw_segments(pieces_->first, pieces_->second, random.pass(detail::numbers_per_round), shift, softening_, drawn_,
                             detail::instruction_set());
     }
-    std::uint32_t lanes = 0;  // that may carry light
+    std::uint32_t lanes = 0;  // lanes that may carry light
     for (std::uint32_t i = 0; i < segments_per_round; ++i) {
       if (!pieces_) { draw(random, i, detail::opposite_cell(i, shift)); }
       lanes |= drawn_.weight[i] > 0.0 ? 1u << i : 0u;
@@ -185,17 +186,17 @@ class Rounds {
   }
 
   PatchEnd p_, q_;
-  double softening_;  // bounds the weight of touching points
+  double softening_;  // limits the weight of points that nearly touch
   std::optional<std::pair<detail::SamplePieces, detail::SamplePieces>> pieces_;
   detail::SampledSegments drawn_;
 };
 
-// What became of the segments of a round, one bit each.
+// Results of the segments of a round, one bit each.
 struct RoundSeen {
   std::uint32_t cast = 0, occluded = 0, shift = 0;
 };
 
-// The spreads over both ends.
+// Sets the spreads over both ends.
 HALFLIGHT_INLINE void set_spreads(std::span<const RoundSeen> rounds, VisibilityEstimate& estimate) {
   CellCounts cells_p;
   CellCounts cells_q;
