@@ -17,7 +17,7 @@ HALFLIGHT_INLINE AirCells::AirCells(const std::array<float, 3>& lo, const std::a
   const float edge = std::cbrt(size[0] * size[1] * size[2] / static_cast<float>(wanted));
   std::size_t cells = 1;
   for (std::size_t k = 0; k < 3; ++k) {
-    // Of a flat solid, whose cells would be flatter than the longest side allows, no more than wanted.
+    // A flat solid would need too many cells of this edge length, so the number along each axis is limited.
     count_[k] = static_cast<std::uint32_t>(std::clamp(size[k] / edge, 1.0f, std::sqrt(static_cast<float>(wanted))));
     cell_[k] = size[k] / static_cast<float>(count_[k]);
     per_cell_[k] = 1.0f / cell_[k];
@@ -32,7 +32,7 @@ HALFLIGHT_INLINE std::array<std::uint32_t, 2> AirCells::range(std::size_t axis, 
   return {cell(lo), cell(hi) + 1};
 }
 
-// Column by column along the axis that the plane is most nearly across: of each the piece meets a few cells.
+// Processes columns of cells along the axis most nearly perpendicular to the plane, because the piece overlaps only a few cells of each.
 HALFLIGHT_INLINE void AirCells::meet(const Piece& piece, float margin) {
   const std::array<float, 4>& n = piece.plane;
   std::size_t axis = 0;

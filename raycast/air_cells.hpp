@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Which cells of a grid over a solid lie wholly in the air.
+// Finds the cells of a grid over a solid that lie completely in the air.
 //
-// A segment that crosses no face of a solid lies wholly inside it or wholly outside: faces do not say which. One point of it in a cell of
-// air does; so the solid's spans, which take many times as long, are asked only about segments that no such point was found of.
+// A segment that crosses no face of a solid lies completely inside or completely outside; the faces do not tell which. One point of it in
+// a cell of air decides. So the solid's spans, which take many times as long, are computed only for segments without such a point.
 //
-// A cell is air when no face comes nearer to it than a margin, and the solid's own spans say at its centre, along all three axes, that it
-// is outside. Cells that share a side and meet no face are on the same side of the surface, so one of them is asked for all.
+// A cell is air if no face comes nearer to it than a margin, and the solid's spans along all three axes say that its centre is outside.
+// Adjacent cells without faces lie on the same side of the surface, so only one of them is tested.
 //
-// Everything is in the coordinates of a compiled scene. The margin covers what a point is rounded by (compiled.hpp).
+// All coordinates are those of a compiled scene. The margin covers the rounding of points (compiled.hpp).
 
 #include <algorithm>
 #include <array>
@@ -21,7 +21,7 @@ namespace raycast {
 
 class AirCells {
  public:
-  // Of a piece of the surface: its bounds, and the plane that it lies in (height above it); a normal of 0 where that is not known.
+  // A piece of the surface: its bounds and its plane (as height above it); normal 0 if the plane is not known.
   struct Piece {
     std::array<float, 3> lo, hi;
     std::array<float, 4> plane;
@@ -29,10 +29,10 @@ class AirCells {
 
   AirCells() = default;
 
-  // A grid of about `wanted` cells over the box. Every piece of the solid's surface must be met, grown by the margin.
+  // Makes a grid of about `wanted` cells over the box. Then meet() must be called for every piece of the solid's surface, with the margin.
   AirCells(const std::array<float, 3>& lo, const std::array<float, 3>& hi, std::size_t wanted);
   void meet(const Piece& piece, float margin);
-  // outside(x, y, z) -> is this point outside the solid?
+  // Classifies the remaining cells. outside(x, y, z): is this point outside the solid?
   template <class Outside>
   void finish(Outside&& outside) {
     for (std::uint32_t i = 0; i < cells_.size(); ++i) {
@@ -43,7 +43,7 @@ class AirCells {
     }
   }
 
-  // Is this point known to be in the air? False says nothing.
+  // Is this point known to be in the air? False means unknown.
   [[nodiscard]] bool contains(float x, float y, float z) const {
     const float at[3] = {(x - lo_[0]) * per_cell_[0], (y - lo_[1]) * per_cell_[1], (z - lo_[2]) * per_cell_[2]};
     std::uint32_t index = 0;
@@ -56,12 +56,12 @@ class AirCells {
   [[nodiscard]] std::size_t bytes() const { return cells_.capacity() * sizeof(State); }
 
  private:
-  enum class State : std::uint8_t { unknown, surface, air };  // surface: or inside
+  enum class State : std::uint8_t { unknown, surface, air };  // surface: near the surface, or inside
 
   [[nodiscard]] std::array<float, 3> centre(std::uint32_t cell) const;
-  // Gives the cell, and all that can be reached from it through unknown cells, this state.
+  // Sets the state of this cell and of all unknown cells connected with it.
   void spread(std::uint32_t from, State state);
-  // The cells of a row along an axis that meet [lo, hi], as a half-open range.
+  // The half-open range of cells in a row along this axis that overlap [lo, hi].
   [[nodiscard]] std::array<std::uint32_t, 2> range(std::size_t axis, float lo, float hi) const;
 
   std::array<float, 3> lo_{}, cell_{}, per_cell_{};

@@ -3,10 +3,10 @@
 
 // Axis-aligned bounds, and the slab test of a line against them.
 //
-// The slab test must never miss a box that the line meets (Ize 2013, "Robust BVH Ray Traversal"): each slab parameter is a product of a
-// rounded difference and a rounded reciprocal, so it is exact up to a factor 1 +- 3u/(1-3u); entry and exit are therefore compared
-// with a relative slack of eps_slab. A direction component of +-0 gives +-inf, and 0 * inf = NaN when the origin lies on the slab's plane;
-// comparisons are written so that a NaN leaves the interval as it is, which counts the plane as inside.
+// The slab test must never miss a box that the line meets (Ize 2013, "Robust BVH Ray Traversal"). Each slab parameter is a product of a
+// rounded difference and a rounded reciprocal, so it is exact up to a factor 1 +- 3u/(1-3u); entry and exit are therefore compared with a
+// relative slack of eps_slab. A direction component of +-0 gives +-inf, and 0 * inf = NaN if the origin lies on the slab's plane;
+// comparisons are written so that a NaN leaves the interval unchanged, so the plane counts as inside.
 
 #include <algorithm>
 #include <cmath>
@@ -31,7 +31,7 @@ struct Box {
     const glm::dvec3 s = size();
     return s.x * s.y + s.y * s.z + s.z * s.x;
   }
-  // The largest absolute coordinate: what rounding errors of positions are relative to.
+  // The largest absolute coordinate, to which rounding errors of positions are relative.
   [[nodiscard]] double magnitude() const {
     double m = 0.0;
     if (!empty()) {
@@ -54,16 +54,16 @@ struct Box {
   [[nodiscard]] Box grown(double margin) const { return empty() ? *this : Box{lo - margin, hi + margin}; }
 };
 
-// A line prepared for many slab tests.
+// A line, prepared for many slab tests.
 class SlabTest {
  public:
   explicit SlabTest(const Segment& line)
       : origin_(line.origin), inverse_(1.0 / line.direction.x, 1.0 / line.direction.y, 1.0 / line.direction.z) {
-    // From the reciprocal, not from the direction: -0.0 must choose the side that its -inf belongs to.
+    // Taken from the reciprocal, not from the direction, because -0.0 must choose the side that its -inf belongs to.
     for (int k = 0; k < 3; ++k) { backward_[k] = std::signbit(inverse_[k]); }
   }
 
-  // Does the line meet the box within [t0, t1]? `entry` becomes the (rounded) parameter where it does, at least t0.
+  // Does the line meet the box within [t0, t1]? If so, `entry` is set to the (rounded) parameter of the entry, at least t0.
   [[nodiscard]] bool operator()(const Box& box, double t0, double t1, double& entry) const {
     double in = t0, out = t1;
     axis(box.lo.x, box.hi.x, origin_.x, inverse_.x, backward_[0], in, out);
@@ -77,7 +77,7 @@ class SlabTest {
   static void axis(double lo, double hi, double origin, double inverse, bool backward, double& in, double& out) {
     const double near = ((backward ? hi : lo) - origin) * inverse;
     const double far = ((backward ? lo : hi) - origin) * inverse;
-    in = near > in ? near : in;  // false for NaN
+    in = near > in ? near : in;  // false for NaN, which leaves `in` unchanged
     out = far < out ? far : out;
   }
 

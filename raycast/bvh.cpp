@@ -16,7 +16,7 @@ namespace raycast {
 
 namespace detail {
 
-// Leaves of up to four items, where dividing them is not expected to be cheaper.
+// Leaves have at most four items, unless the heuristic expects no gain from dividing a larger one.
 struct BvhPolicy {
   using Real = double;
   using Bounds = Box;

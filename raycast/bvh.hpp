@@ -4,7 +4,7 @@
 // A bounding volume hierarchy over boxes in double precision: binary, in one flat array (bvh_builder.hpp). line_query.hpp and
 // point_query.hpp search it.
 //
-// The boxes must already be grown by the rounding of what lies inside; the tree adds nothing to them.
+// The boxes must include the rounding error of their items; the tree does not enlarge them.
 
 #include <cstddef>
 #include <cstdint>

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The builder of all trees of the room: binary, top down, by the surface area heuristic over 16 bins of the centres per axis (Wald 2007).
-// bvh.cpp keeps the tree as it comes, in double precision; wide_tree.hpp collapses one in single precision to nodes of eight children.
+// The builder of all trees in raycast/: binary, top down, by the surface area heuristic over 16 bins of the centres per axis (Wald 2007).
+// bvh.cpp uses the tree as it is, in double precision; wide_tree.hpp collapses one in single precision to nodes of eight children.
 //
-// The two children of a node are neighbours, the one of larger area first: any-hit searches look there first. Children lie behind their
-// parent in the array of nodes.
+// The two children of a node are adjacent, the one with the larger area first, because any-hit searches visit it first. Children come
+// after their parent in the array of nodes.
 //
-// Depth. The heuristic alone could make a chain of any length, so below level 56 a node is halved by number: 2^32 items are eight after 29
-// halvings, and eight are single items, or of a single kind each, after 7 more levels at the most.
+// Depth. The heuristic alone could make a chain of any length, so below level 56 a node is halved by number: 2^32 items become eight
+// after 29 halvings, and eight items become single items, or items of one kind, after at most 7 more levels.
 
 #include <algorithm>
 #include <array>
@@ -32,14 +32,14 @@ struct BinaryNode {
   std::uint32_t count;  // 0 for an inner node
 };
 
-// Policy says in what precision, and what a leaf is:
+// Policy defines the precision, and when a node is a leaf:
 //   Real, Bounds           Bounds: extend(Bounds), half_area() -> Real
-//   Grid                   of the centres of some references: position(box)[axis], and position(box, axis) for one axis, in [0, bin_count]
-//                          is the place of a box's centre; wide(axis): not all centres are the same there
-//   cost(n)                of testing n items, in tests of one box; only ratios matter
-//   few                    up to so many references are not divided by the heuristic but by
-//   divide(begin, end)     -> where the second part begins, or end: they are a leaf
-//   leaf(area, n, best)    is it cheaper to test n > few items than to divide the node, whose children then cost `best`?
+//   Grid                   made from the centres of some references: position(box)[axis], and position(box, axis) for one axis, is the
+//                          position of a box's centre in [0, bin_count]; wide(axis): do the centres differ along this axis?
+//   cost(n)                of testing n items, relative to a test of one box
+//   few                    up to this many references are not divided by the heuristic but by
+//   divide(begin, end)     -> where the second part begins; end: they are a leaf
+//   leaf(area, n, best)    is testing n > few items cheaper than dividing the node, whose children would cost `best`?
 template <class Policy>
 class BvhBuilder {
  public:
@@ -53,8 +53,8 @@ class BvhBuilder {
 
   explicit BvhBuilder(Policy policy) : policy_(std::move(policy)) {}
 
-  std::vector<Reference> references;  // to be filled in; sorted by build() so that those of a leaf lie side by side
-  std::vector<Node> nodes;            // the first is the root; empty without references
+  std::vector<Reference> references;  // filled in by the caller; build() sorts them so that those of a leaf are adjacent
+  std::vector<Node> nodes;            // the root comes first; empty without references
 
   void build() {
     if (references.empty()) { return; }
@@ -76,7 +76,7 @@ class BvhBuilder {
     Bounds box;
     std::uint32_t count = 0;
   };
-  struct Cut {  // below bin `bin` of an axis
+  struct Cut {  // between bins bin - 1 and bin of an axis
     Real cost = std::numeric_limits<Real>::infinity();
     int axis = -1;
     std::size_t bin = 0;
@@ -91,7 +91,7 @@ class BvhBuilder {
     return std::min(static_cast<std::size_t>(std::max(static_cast<std::int32_t>(position), 0)), bin_count - 1);
   }
 
-  // The cheapest of 45 cuts; axis -1 where all centres are equal.
+  // The cheapest of 45 cuts; axis -1 if all centres are equal.
   [[nodiscard]] Cut best_cut(std::span<const Reference> part, const typename Policy::Grid& grid) const {
     std::array<std::array<Bin, bin_count>, 3> bins{};
     for (const Reference& reference : part) {
@@ -124,7 +124,7 @@ class BvhBuilder {
     return best;
   }
 
-  // Turns a leaf into an inner node with two leaves, if it is not to stay one.
+  // Turns a leaf into an inner node with two leaves; returns false if it stays a leaf.
   bool split(std::uint32_t at, std::uint32_t depth) {
     const Node whole = nodes[at];
     const auto begin = references.begin() + whole.first, end = begin + whole.count;

@@ -15,7 +15,7 @@
 namespace raycast {
 
 HALFLIGHT_INLINE AxisFrame::AxisFrame(const glm::dvec3& axis) : w(glm::normalize(axis)) {
-  int smallest = 0;  // the coordinate axis that is most across w
+  int smallest = 0;  // the coordinate axis most nearly perpendicular to w
   for (int k = 1; k < 3; ++k) {
     if (std::abs(w[k]) < std::abs(w[smallest])) { smallest = k; }
   }

@@ -56,7 +56,7 @@ HALFLIGHT_INLINE void Compiler::cylinder(const glm::dvec3& base, const AxisFrame
 }
 
 HALFLIGHT_INLINE void Compiler::superquadric(const glm::dvec3& centre, const glm::dmat3& unit, double p, double q, double ring) {
-  if (ring > largest_ring) { return; }  // the distance from it is not known well enough
+  if (ring > largest_ring) { return; }  // distances from such a large ring are not accurate enough
   form(p >= 1.0 && q >= 1.0 && ring == 0.0 ? FormKind::convex : FormKind::concave, centre, unit, p, q, ring,
        eps_power * (1.0 + 0.5 / p + 0.5 / q + (p + q) / 128.0));
 }
@@ -83,7 +83,7 @@ HALFLIGHT_INLINE void Compiler::face(std::uint32_t number, std::span<const glm::
   for (const glm::dvec3& p : corners) { world_.push_back(map(p)); }
   if (turned_) { std::reverse(world_.begin(), world_.end()); }
   if (corners.size() == 3) {
-    // Slivers are left to double precision: their normal is not known.
+    // Slivers are left to double precision, because their normal is not accurate.
     const glm::dvec3 area = glm::cross(world_[1] - world_[0], world_[2] - world_[0]);
     const double length = glm::length(area);
     const double extent =
@@ -154,7 +154,8 @@ HALFLIGHT_INLINE void Compiler::add(std::uint32_t index, const PlacedObject& obj
 }
 
 HALFLIGHT_INLINE AirCells Compiler::air_cells(std::size_t first_item) const {
-  // A room of a dozen walls is to have cells of air in its middle, and a lattice between its bars; a million faces a megabyte at most.
+  // Enough cells that a room of a dozen walls has cells of air in its middle, and a lattice between its bars; at most a megabyte for a
+  // million faces.
   const std::size_t wanted = std::clamp<std::size_t>(32 * (items_.size() - first_item), 1024, std::size_t{1} << 18);
   const FloatBox body = rounded(scaled(object_->bounds()));
   AirCells cells(body.lo, body.hi, wanted);
@@ -175,7 +176,7 @@ HALFLIGHT_INLINE AirCells Compiler::air_cells(std::size_t first_item) const {
   return cells;
 }
 
-HALFLIGHT_INLINE FloatBox Compiler::rounded(const Box& b) const {  // grown by the margin, outwards
+HALFLIGHT_INLINE FloatBox Compiler::rounded(const Box& b) const {  // grown by the margin and rounded outwards
   FloatBox result;
   const double grow = out_.margin;
   for (int k = 0; k < 3; ++k) {

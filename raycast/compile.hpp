@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// From objects to compiled.hpp. An object that consists of shapes which the fast lanes know says so in Object::compile, in its own
-// coordinates; what says nothing is kept behind its bounds and asked through its spans. Shapes that a placement distorts are treated
-// the same way, unless they are polyhedral.
+// Converts objects to compiled.hpp. An object made of shapes that the fast single-precision code knows declares them in Object::compile,
+// in its own coordinates; any other object is represented by its bounds and tested through its spans. The same applies to shapes that are
+// distorted by their placement, unless they are polyhedral.
 
 #include <array>
 #include <cstddef>
@@ -24,7 +24,7 @@
 
 namespace raycast {
 
-struct Item {  // a shape before it has its place
+struct Item {  // a shape before its position in the arrays is known
   FloatBox box;
   Kind kind;
   std::uint32_t object, data;
@@ -32,34 +32,35 @@ struct Item {  // a shape before it has its place
 
 class Compiler {
  public:
-  // --- What Object::compile may call. Only one kind per object. ---
+  // --- To be called by Object::compile. Each object may use only one kind. ---
 
   void sphere(const glm::dvec3& centre, double radius);
   void cylinder(const glm::dvec3& base, const AxisFrame& frame, double radius, double height);
-  // |x, y| <= 1, z = 0 where x, y, z are unit (p - centre).
+  // The disk |x, y| <= 1 and z = 0, with (x, y, z) = unit (p - centre).
   void disk(const glm::dvec3& centre, const glm::dmat3& unit) { form(FormKind::disk, centre, unit, 0.0, 0.0, 0.0, 0.0); }
   // 0 <= z <= 1, |x, y| <= p + q z, neither beyond 1.
   void cone(const glm::dvec3& base, const glm::dmat3& unit, double p, double q) { form(FormKind::cone, base, unit, p, q, 0.0, eps_cone); }
-  // ((|x|^p + |y|^p)^(1/p) - ring)^q + |z|^q <= 1.
+  // The torus-like solid ((|x|^p + |y|^p)^(1/p) - ring)^q + |z|^q <= 1, with (x, y, z) = unit (p - centre).
   void superquadric(const glm::dvec3& centre, const glm::dmat3& unit, double p, double q, double ring);
-  // A convex solid behind all these planes; at most 32 of them.
+  // A convex solid behind all these planes, of which there are at most 32.
   void body(std::span<const Plane> planes);
-  // Is it worth listing so many faces? Beyond four million in a scene no copies are made of them.
+  // Is there room for so many more faces? Beyond four million faces in a scene no copies are made.
   [[nodiscard]] bool takes_faces(std::size_t count) const { return face_count_ + count <= 4'000'000; }
-  // The air is within the object. Its faces may be listed if the first of them that a ray from the air meets is where the air ends: if the
-  // surface does not meet itself.
+  // Is this object a room, with the air inside it? Its faces may be declared only if the first face that a ray from the air meets is
+  // where the air ends, that is, if the surface does not meet itself.
   [[nodiscard]] bool room() const { return object_->inside(); }
-  // One face of a surface, in the order of its corners; all faces must be listed. Faces of one sheet lie in one plane.
+  // A face of a surface, with corners in order; all faces must be declared. Faces of one sheet lie in one plane.
   void face(std::uint32_t number, std::span<const glm::dvec3> corners);
 
-  // --- What Scene calls. ---
+  // --- To be called by Scene. ---
 
-  // `skin` is at least every skin of the scene.
+  // `skin`: upper bound of every skin in the scene.
   Compiler(Compiled& out, const Box& bounds, double skin);
-  enum class Rays { meet, pass };  // what they do at the object
+  enum class Rays { meet, pass };  // do rays meet the object, or pass through it?
   void add(std::uint32_t index, const PlacedObject& object, std::span<const glm::dvec3> outline, const glm::dvec3& normal,
            Rays rays = Rays::meet);
-  // Arranges everything. Up to `loop_limit` shapes are a loop for occlusion; the first hit is always looked for in the tree.
+  // Arranges the shapes in arrays and a tree. Up to `loop_limit` shapes are tested in a loop for occlusion; the first hit
+  // always uses the tree.
   void finish(std::size_t loop_limit);  // wide_tree.hpp
 
  private:
@@ -77,22 +78,22 @@ class Compiler {
   [[nodiscard]] Box scaled(const Box& b) const { return {out_.local(b.lo), out_.local(b.hi)}; }
   [[nodiscard]] FloatBox rounded(const Box& b) const;
   void add(const Box& box, Kind kind, std::uint32_t data) { items_.push_back({rounded(box), kind, index_, data}); }
-  // The faces listed from this item on bound a solid: which cells over its body are air?
+  // The cells of air over a solid whose faces were declared from this item on.
   [[nodiscard]] AirCells air_cells(std::size_t first_item) const;
   void add_object_box(Kind kind, std::uint32_t data) { items_.push_back({out_.bounds.back(), kind, index_, data}); }
 
-  // What double precision computes in the shape's coordinates must be better than the margin there: so not under very uneven maps.
+  // Adds a Form, if double precision in the shape's coordinates is more accurate than the margin there; not for very uneven maps.
   void form(FormKind kind, const glm::dvec3& centre, const glm::dmat3& unit, double p, double q, double ring, double eps);
 
-  // Is the mean plane of `world_` known well enough for single precision? A corner that is off the plane by s moves the outline that a
-  // segment sees by s length / (|from| + |to|) across the plane, with heights of the ends as in face() of shapes.inc. The tolerance there
-  // holds 12 skins times that factor, because the margin holds 4; so half a skin is far within it. A skin contains two slacks of any
-  // object: only what is nearly a line is not known.
+  // Is the mean plane of `world_` accurate enough for single precision? A corner that is off the plane by s shifts the outline seen by a
+  // segment by s length / (|from| + |to|) in the plane, with the heights of the ends as in face() of shapes.inc. The tolerance there is
+  // 12 skins times that factor, because the margin holds 4; so half a skin is well within it. A skin contains the slacks of two objects.
+  // So only polygons that are nearly a line fail this test.
   [[nodiscard]] bool known(const Plane& plane) const;
 
-  // Cuts the polygon `world_` into pieces of at most four corners. Where the plane is not known (normal 0), or no triangles are found, the
-  // rows of the whole stay zero: neither in nor out, double precision decides.
-  static constexpr std::size_t most_corners = 1000;  // cutting off ears takes their square
+  // Cuts the polygon `world_` into pieces of at most four corners. If the plane is not known (normal 0), or the polygon cannot be
+  // triangulated, the rows of the whole polygon stay zero: neither in nor out, so that double precision decides.
+  static constexpr std::size_t most_corners = 1000;  // because triangulation by ears is quadratic
   void pieces(std::uint32_t number, std::uint32_t sheet, const glm::dvec3& normal, bool convex);
 
   template <int Edges>
@@ -126,11 +127,11 @@ class Compiler {
   std::vector<Guard> guards_;
   std::vector<glm::dvec3> world_;
   std::uint32_t face_count_ = 0;
-  // Of the object being added:
+  // State of the object being added:
   const PlacedObject* object_ = nullptr;
   std::uint32_t index_ = 0, room_body_ = no_shape;
-  double stretch_ = 1.0, skin_ = 0.0;     // skin_: in the compiled scene
-  bool turned_ = false, similar_ = true;  // turned_: the corners of a face run clockwise seen from the air
+  double stretch_ = 1.0, skin_ = 0.0;     // skin_: in compiled coordinates
+  bool turned_ = false, similar_ = true;  // turned_: do the corners of a face run clockwise seen from the air?
 };
 
 }  // namespace raycast

@@ -50,7 +50,7 @@ HALFLIGHT_INLINE double Compiled::walk_work() const {
       case Kind::body: {
         double planes_there = 0.0;
         for (std::uint32_t j = first; j < first + count; ++j) { planes_there += bodies[j].count; }
-        return planes_there / 4.0;  // one after the other, for its entry and its exit
+        return planes_there / 4.0;  // the planes are processed one by one, for entry and exit
       }
       case Kind::guard:
         return 0.0;
@@ -81,7 +81,7 @@ HALFLIGHT_INLINE bool leaves_at_once(const Compiled& scene, std::uint32_t owner,
   if (sheet == 0xffffffffu || scene.first_sheet[owner] == no_shape) { return false; }
   const std::array<float, 4>& plane = scene.sheets[scene.first_sheet[owner] + sheet];
   const float height = plane[0] * to[0] + plane[1] * to[1] + plane[2] * to[2] + plane[3];
-  // A skin is at most (margin - eps_height) / 4, and the way through it at most 2 length / height times as long.
+  // A skin is at most (margin - eps_height) / 4, and the path through it is at most 2 length / height times as long.
   constexpr auto rounding = static_cast<float>(eps_height);
   return height > 2.0f * scene.margin && (scene.margin - rounding) * length <= rounding * height;
 }

@@ -27,7 +27,7 @@ namespace raycast {
 
 namespace detail {
 
-// The faces without what they share, and that: nothing, a corner, or a row of corners along a line.
+// The unshared corners of two faces, and what they share: nothing, a corner, or corners along a straight line.
 struct SharedCorners {
   std::vector<glm::dvec3> of_a, of_b;  // the other corners
   std::optional<glm::dvec3> point, edge;
@@ -40,7 +40,7 @@ HALFLIGHT_INLINE std::optional<SharedCorners> shared_corners(const MeshFace& a, 
   const auto has = [](const MeshFace& face, std::uint32_t v) {
     return std::find(face.corners.begin(), face.corners.end(), v) != face.corners.end();
   };
-  // Rows of shared corners in succession; two of them are two edges, or corners, that are shared.
+  // Counts runs of consecutive shared corners; two runs mean two shared edges or corners.
   const auto rows = [&](const MeshFace& face, const MeshFace& other, std::vector<glm::dvec3>& rest) {
     std::size_t begins = 0;
     bool before = has(other, face.corners.back());
@@ -65,13 +65,13 @@ HALFLIGHT_INLINE std::optional<SharedCorners> shared_corners(const MeshFace& a, 
   const glm::dvec3 farthest = *std::max_element(shared.begin(), shared.end(), farther);
   if (!(distance(farthest) > 0.0)) { return std::nullopt; }
   result.edge = (farthest - *result.point) / distance(farthest);
-  for (const glm::dvec3& p : shared) {  // a row around a corner is no edge
+  for (const glm::dvec3& p : shared) {  // shared corners that are not collinear form no edge
     if (glm::length(glm::cross(p - *result.point, *result.edge)) > rounding) { return std::nullopt; }
   }
   return result;
 }
 
-// Does a plane of this normal, through what they share, have the faces on its two sides?
+// Does a plane with this normal, through the shared corners, separate the two faces?
 HALFLIGHT_INLINE bool divides(const SharedCorners& faces, glm::dvec3 normal, double rounding) {
   if (faces.edge) { normal -= glm::dot(normal, *faces.edge) * *faces.edge; }
   const double length = glm::length(normal);
@@ -89,18 +89,18 @@ HALFLIGHT_INLINE bool divides(const SharedCorners& faces, glm::dvec3 normal, dou
   range(faces.of_a, low_a, high_a);
   range(faces.of_b, low_b, high_b);
   if (!faces.point) { return low_a - high_b > 2 * rounding || low_b - high_a > 2 * rounding; }
-  // One lies above, well off the plane; the other below, but for what its corners are off their own plane.
+  // One face lies well above the plane, the other below it, except for the deviation of its corners from its own plane.
   const auto above = [&](double low, double other_high) { return low > 0.0 && std::max(other_high, 0.0) + rounding <= tol_between * low; };
   return above(low_a, high_b) || above(low_b, high_a) || above(-high_a, -low_b) || above(-high_b, -low_a);
 }
 
-// Is a plane found between the convex hulls of two faces?
+// Is there a separating plane between the convex hulls of two faces?
 HALFLIGHT_INLINE bool hulls_apart(const MeshFace& a, const MeshFace& b, const std::vector<glm::dvec3>& positions, double rounding) {
   const std::optional<SharedCorners> shared = shared_corners(a, b, positions, rounding);
   if (!shared) { return false; }
   const auto divides = [&](const glm::dvec3& normal) { return detail::divides(*shared, normal, rounding); };
   if (divides(a.normal) || divides(b.normal)) { return true; }
-  const auto along = [&](const MeshFace& face, std::size_t i) {  // its edge after corner i, of length 1
+  const auto along = [&](const MeshFace& face, std::size_t i) {  // the edge after corner i, as a unit vector
     const glm::dvec3 edge = positions[face.corners[(i + 1) % face.corners.size()]] - positions[face.corners[i]];
     return edge / std::max(glm::length(edge), smallest_length);
   };
@@ -109,7 +109,7 @@ HALFLIGHT_INLINE bool hulls_apart(const MeshFace& a, const MeshFace& b, const st
       if (divides(glm::cross(face->normal, along(*face, i)))) { return true; }
     }
   }
-  if (shared->edge) {  // the plane through it that lies in the middle between both
+  if (shared->edge) {  // the plane through the shared edge that bisects the angle between both
     return divides(glm::normalize(shared->of_a.front() - *shared->point) - glm::normalize(shared->of_b.front() - *shared->point));
   }
   for (std::size_t i = 0; i < a.corners.size(); ++i) {
@@ -120,7 +120,7 @@ HALFLIGHT_INLINE bool hulls_apart(const MeshFace& a, const MeshFace& b, const st
   return false;
 }
 
-// Pairs of faces of a mesh, with the triangles of those for which their hulls do not stand.
+// Pairs of faces of a mesh, with triangles for those faces whose hull is not sufficient.
 class FacePairs {
  public:
   FacePairs(const std::vector<MeshFace>& faces, const std::vector<glm::dvec3>& positions, double rounding)
@@ -156,7 +156,7 @@ class FacePairs {
   using Triangle = std::array<std::uint32_t, 3>;
   using Triangles = std::vector<Triangle>;
 
-  // Those that a face is cut into; none when they do not certainly cover it.
+  // The triangles of a face; empty if they do not certainly cover it.
   const Triangles& triangles(std::uint32_t f) {
     const auto [entry, added] = cut_.try_emplace(f);
     if (!added) { return entry->second; }

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 
-// The first hit of one ray and of sixteen: the search of kernels/first.inc in front of the law of scene.hpp.
+// The first hit of one ray and of sixteen: the fast search of kernels/first.inc, followed by the double-precision law of scene.hpp.
 //
-// The search goes through the part of the ray that lies in a cube around the compiled scene. Polygons that are crossed for certain, and
-// faces of open surfaces and of solids that may be, it leaves over, with bounds of the parameter; mostly one is left, whose place is then
-// computed in double precision, as the law does. Of everything else the law is asked.
+// The search covers the part of the ray in a cube around the compiled scene. It returns the polygons that are certainly crossed, and the
+// faces of open surfaces and solids that may be, each with bounds of the parameter. Mostly one candidate is left, whose position is then
+// computed in double precision as in the law. For all other objects the law is evaluated.
 
 #include <algorithm>
 #include <bit>
@@ -44,7 +44,7 @@ HALFLIGHT_INLINE bool Scene::Search::clip(const Compiled& scene) {
   return t0 < t1;
 }
 
-// Asks the law about one object.
+// Evaluates the law for one object.
 struct Scene::Asker {
   const Scene& scene;
   Search* searches;  // by lane
@@ -54,17 +54,17 @@ struct Scene::Asker {
     scene.approach(Line(s.ray), s.source, object, s.nearest);
     return static_cast<float>(std::min((s.nearest.limit - s.t0) / (s.t1 - s.t0), 1.0)) * limit_up + eps_limit;
   }
-  // The origin lies on the object or near its bounds: an end may only touch it.
+  // Does the origin lie on the object or near its bounds? Then an end may merely touch it.
   [[nodiscard]] bool near(unsigned lane, std::uint32_t object) const {
     const Search& s = searches[lane];
     return object == s.source.owner || scene.objects_[object].bounds().contains(s.ray.origin, 2 * scene.skin(s.source, object));
   }
 };
 
-// Where the ray meets the object of entry i first, as its spans have it; t is infinite where it does not, and nothing says that only the
-// spans tell. A solid's first entry is that of its spans if no face is left before it is passed: then these pair with it. Of an open
-// surface all crossings count, so the first of them is known once one lies before `limit`, up to which no face is missing; where two of its
-// faces coincide the law decides, which prefers a front.
+// The first crossing of the ray with the object of entry i, as its spans have it. t is infinite if there is none; nothing is returned if
+// only the spans can tell. A solid's first entry is the beginning of a span if no face is left before it, because crossings then pair
+// with it. Of an open surface all crossings count, so the first is known once it lies before `limit`, up to which no face is missing; if
+// two of its faces coincide, the law decides, because it prefers a front.
 HALFLIGHT_INLINE std::optional<Crossing> Scene::first_crossing(const Search& search, const Entries& entries, unsigned i,
                                                                float limit) const {
   if (!entries.complete) { return std::nullopt; }
@@ -95,7 +95,7 @@ HALFLIGHT_INLINE std::optional<Crossing> Scene::first_crossing(const Search& sea
   return first;
 }
 
-// Of what the search has left over, which is complete up to `limit`.
+// Decides among the candidates that the search returned, which are complete up to `limit`.
 HALFLIGHT_INLINE void Scene::decide(Search& search, const Entries& entries, float limit) const {
   const Segment& ray = search.ray;
   Nearest& nearest = search.nearest;
@@ -103,7 +103,7 @@ HALFLIGHT_INLINE void Scene::decide(Search& search, const Entries& entries, floa
     const std::uint32_t object = entries.entry[i].object;
     const auto other = [&](const Entries::Entry& e) { return e.object != object; };
     if (!std::all_of(entries.entry, entries.entry + i, other)) { continue; }
-    if (const Record& r = records_[object]; r.corner_count) {  // a polygon that is crossed for certain: as approach() has it
+    if (const Record& r = records_[object]; r.corner_count) {  // a certainly crossed polygon: computed as in approach()
       const double step = glm::dot(r.normal, ray.direction), t = -glm::dot(r.normal, ray.origin - r.point) / step;
       if (t <= nearest.limit) { offer(ray, Hit{t, object, 0, step < 0.0}, nearest); }
       continue;
@@ -119,7 +119,7 @@ HALFLIGHT_INLINE void Scene::decide(Search& search, const Entries& entries, floa
   if (entries.complete) { return; }
   const Line line(ray);
   for (std::uint32_t i = 0; i < objects_.size(); ++i) {
-    const bool room = objects_[i].inside() && !compiled_.is_face_room(i);  // is asked last
+    const bool room = objects_[i].inside() && !compiled_.is_face_room(i);  // rooms are processed last
     if (compiled_.roles[i] != Role::polygon && !room && !left_out_[i]) { approach(line, search.source, i, nearest); }
   }
 }
@@ -159,8 +159,8 @@ HALFLIGHT_INLINE void Scene::approach_rooms(Search& search) const {
   }
 }
 
-// The lanes that are left: those of which the other caster cannot tell, and those whose end may lie on two surfaces, of which one is met
-// (the law of covered(), and a front stands before a back).
+// Returns the lanes that remain: those for which the other caster cannot decide, and those whose hit may lie on two coincident surfaces,
+// of which one must be chosen (as in covered(), and a front before a back).
 HALFLIGHT_INLINE std::uint32_t Scene::met_by_other(const Segments16& rays, Hits16& hits) const {
   std::uint32_t left = other_.closest16(rays, hits) & rays.lanes;
   hits.met &= rays.lanes & ~left;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Which vector instructions a scene is searched with (lanes.hpp).
+// The vector instruction sets with which a scene can be searched (lanes.hpp).
 
 #include <cstdint>
 
@@ -13,7 +13,7 @@ namespace raycast {
 
 enum class Isa : std::uint8_t { portable, avx2, avx512 };
 
-// The best set of this machine.
+// The best instruction set of this machine.
 [[nodiscard]] inline Isa best_isa() {
 #ifdef HALFLIGHT_X86
   if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512dq") &&

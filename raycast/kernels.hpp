@@ -1,30 +1,31 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The searches over compiled.hpp in single precision, for every instruction set (lanes.hpp), and what they are asked with.
+// The searches over compiled.hpp in single precision, for every instruction set (lanes.hpp), and their input.
 //
-// Lanes. A bundle is sixteen segments as a structure of arrays: Rays16::ox are the x of sixteen origins. Segment i is lane i, on every
+// Lanes. A bundle is sixteen segments as a structure of arrays: Rays16::ox holds the x of sixteen origins. Segment i is lane i on every
 // machine; a set of lanes is an unsigned number with bit i for lane i, and so is the result of every comparison. The vector F holds
-// lane_count lanes, 4, 8 or 16; a bundle takes `chunks` = 16 / lane_count of them. The vector B is for the other use, one segment against
-// eight boxes or shapes at once, in `box_chunks` steps.
+// lane_count lanes: 4, 8 or 16; a bundle needs `chunks` = 16 / lane_count of them. The vector B is for testing one segment against eight
+// boxes or shapes at once, in `box_chunks` steps.
 //
-// Layout (compiled.hpp). A Node holds the bounds of eight children in six rows of eight floats, and their eight numbers, in four cache
-// lines. A number is the index of a node or, with bit 31, a leaf: a kind, a count and the first of up to eight shapes of this kind.
-// Triangles, quads and spheres lie in blocks of eight, again row by row: a face is its plane and one plane through each edge, so that to
-// test it is to compute heights. Places without a shape hold what no segment meets. All other kinds lie one after the other.
+// Layout (compiled.hpp). A Node holds the bounds of eight children in six rows of eight floats, and their eight child numbers, in four
+// cache lines. A child number is the index of a node or, with bit 31 set, a leaf: kind, count and first index of up to eight shapes of
+// this kind. Triangles, quads and spheres are stored in blocks of eight, again row by row: a face is its plane and one plane through each
+// edge, so testing it means computing heights. Unused places hold values that no segment meets. All other kinds are stored one by one.
 //
-// Two ways. A node or a block can be tested lane by lane, eight children at once (segment.inc), or child by child, all lanes at once
-// (shapes.inc, slabs() of hull.inc). search.inc compares the numbers of tests, which depend on how many lanes are still alive; a bundle
-// whose segments run beside each other drops children by its convex hull first.
+// Two orders of testing. A node or a block can be tested lane by lane, eight children at once (segment.inc), or child by child, all lanes
+// at once (shapes.inc, slabs() of hull.inc). search.inc chooses by the number of tests, which depends on how many lanes are still alive.
+// A bundle whose segments are nearly parallel first discards children with its convex hull.
 //
-// Conservative. Single precision cannot decide what is near a limit: a segment that passes an edge within rounding. So each limit is moved
-// by `margin` both ways, and every test has three answers: blocked for certain (Bits::hit), free for certain, undecided (Bits::maybe).
-// Boxes are grown by the margin, and hulls by their rounding, so nothing is lost on the way to a shape.
+// Conservative. Single precision cannot decide cases near a limit, such as a segment that passes an edge within rounding. So each limit
+// is moved by `margin` in both directions, and every test has three answers: certainly blocked (Bits::hit), certainly free, undecided
+// (Bits::maybe). Boxes are grown by the margin and hulls by their rounding error, so no shape is missed.
 //
-// What is asked in double precision, of Scene, object by object:
-//   - undecided lanes; they are collected by object (Pending) and asked only if no certain blocker was found;
-//   - objects that the lanes do not know (Kind::other), and what depends on the order of crossings: an end on or in a solid;
-//   - where a ray meets first: here its parameter is only known between bounds (Entries), which mostly leave one candidate.
+// Evaluated in double precision by Scene, object by object:
+//   - undecided lanes; they are collected by object (Pending) and evaluated only if no certain blocker was found;
+//   - objects that the single-precision code does not know (Kind::other), and cases that depend on the order of crossings: an end on or
+//     in a solid;
+//   - the first hit of a ray: here its parameter is known only within bounds (Entries), which mostly leave one candidate.
 // So the answers are those of double precision alone, whatever the order and the instruction set.
 //
 //   lanes.inc     the operations on vectors        convert.inc   from the world into the compiled scene
@@ -68,35 +69,35 @@ struct Hull {
   float centre[2][3], half[2][3];  // the bounds of the origins, and of the targets
 };
 
-// Where the segments between two patches may run: as segments between their corners, each with each, and the hull of these. Both are
-// wider by `bulge` all around.
+// The region of segments between two patches: as segments between each corner of one and each corner of the other, and their hull. Both
+// are widened by `bulge` in all directions.
 struct Corners16 {
   Rays16 rays;
   Hull hull;
   float bulge = 0.0f;
-  float smallest = 0.0f;         // what is smaller than this hides no section: such proofs are not tried
+  float smallest = 0.0f;         // smaller objects cannot hide a section, so that proof is not tried for them
   std::uint32_t source, target;  // owners
   std::uint32_t source_sheet, target_sheet;
 };
 enum class Relevance : std::uint8_t { none, some, blocks_all };
 
-// Where a ray crosses polygons and enters solids kept as faces, as far as single precision knows.
+// Candidates for the first hit of a ray: crossings of polygons and entries into solids with stored faces, as far as single precision knows.
 struct Entries {
   static constexpr unsigned capacity = 8;
   struct Entry {
     float from, to;  // bounds of the parameter
     std::uint32_t object, face;
-    bool sure;   // that it is crossed
-    bool timed;  // the bounds say something
+    bool sure;   // is it certainly crossed?
+    bool timed;  // do the bounds say anything?
   };
   Entry entry[capacity];
   unsigned count = 0;
-  bool complete = true;  // false: there were more
-  float exit = 1.0f;     // no solid kept as faces is left before this
+  bool complete = true;  // false: there were more candidates
+  float exit = 1.0f;     // no solid with stored faces is left before this parameter
 
   [[nodiscard]] bool full() const { return count == capacity; }
   void add(const Entry& e) {
-    if (e.sure) {  // what certainly comes later does not matter
+    if (e.sure) {  // later candidates cannot be the first hit
       unsigned kept = 0;
       for (unsigned i = 0; i < count; ++i) {
         if (entry[i].from <= e.to) { entry[kept++] = entry[i]; }
@@ -111,10 +112,10 @@ struct Entries {
   }
 };
 
-// Which lanes are undecided about which object; of an open surface, about which face.
+// Undecided lanes by object, and for open surfaces by face.
 struct Pending {
   static constexpr unsigned capacity = 24;
-  static constexpr std::uint32_t whole = 0xffffffff;  // in place of a face: the object
+  static constexpr std::uint32_t whole = 0xffffffff;  // in place of a face: the whole object
   std::uint32_t object[capacity], face[capacity], lanes[capacity];
   unsigned count = 0;
 };
@@ -153,7 +154,7 @@ struct Pending {
 #undef HALFLIGHT_LAMBDA
 #endif
 
-// The call in the namespace of the instruction set: its functions have the same names in each.
+// Calls the function of this name in the namespace of the instruction set.
 #ifdef HALFLIGHT_X86
 #define HALFLIGHT_DISPATCH(isa, call) ((isa) == Isa::avx512 ? avx512::call : (isa) == Isa::avx2 ? avx2::call : portable::call)
 #else

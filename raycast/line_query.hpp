@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Searches along a line in double precision, through a Bvh and through a compiled scene. What lies in the leaves is the caller's business:
-// it is a lambda. No box that the line meets is missed (box.hpp).
+// Searches along a line in double precision, through a Bvh and through a compiled scene. The caller passes a lambda that handles the
+// items of leaves. No box that the line meets is missed (box.hpp).
 
 #include <cstddef>
 #include <cstdint>
@@ -36,15 +36,15 @@ template <class Visit>
     const std::uint32_t first = nodes[at.child].first;
     if (slabs(nodes[first + 1].box, t0, t1, entry)) { put_off.push({first + 1}); }
     if (slabs(nodes[first].box, t0, t1, entry)) {
-      put_off.push({first});  // the larger one is looked at next
+      put_off.push({first});  // the larger one is visited next
     }
     return false;
   };
   return slabs(nodes[0].box, t0, t1, entry) && portable::walk(bvh, Open{0}, everything, leaf, inner);
 }
 
-// Calls visit(item) for the items whose leaf the line meets within [t0, limit], nearer leaves first; visit may lower `limit`, so that what
-// lies beyond is left out.
+// Calls visit(item) for the items whose leaf the line meets within [t0, limit], nearer leaves first. visit may lower `limit`; what lies
+// beyond it is skipped.
 template <class Visit>
 void nearest_along(const Bvh& bvh, const SlabTest& slabs, double t0, const double& limit, Visit&& visit) {
   if (bvh.empty()) { return; }
@@ -69,9 +69,9 @@ void nearest_along(const Bvh& bvh, const SlabTest& slabs, double t0, const doubl
   static_cast<void>(portable::walk(bvh, Open{0, t0}, near, leaf, inner));
 }
 
-// The objects of a compiled scene whose bounds the line may meet within [t0, limit], nearer ones first as far as it is cheap to know:
-// visit(object) -> bool, until one returns true. visit may lower `limit`. Rooms are not among them, and an object of many shapes is
-// visited once for its guard.
+// Calls visit(object) -> bool for the objects of a compiled scene whose bounds the line may meet within [t0, limit], until one returns
+// true; nearer ones first, as far as that is cheap to determine. visit may lower `limit`. Rooms are not included, and an object of many
+// shapes is visited once, for its guard.
 template <class Visit>
 bool objects_along(const Compiled& scene, const Segment& line, double t0, const double& limit, Visit&& visit) {
   if (scene.nodes.empty()) { return false; }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 
-// The lists of occluders of shaft.hpp, made from the whole scene or from the list of an ancestor.
+// Makes the occluder lists of shaft.hpp, from the whole scene or from the list of an ancestor.
 
 #include <algorithm>
 #include <array>
@@ -44,7 +44,7 @@ HALFLIGHT_INLINE std::array<glm::dvec3, 4> four_corners(std::span<const glm::dve
   return {at(u0, v0), at(u1, v0), at(u1, v1), at(u0, v1)};
 }
 
-// The corners of two patches as the kernels want them; none when they reach out of the compiled scene.
+// The corners of two patches in the form of the kernels; nothing if they extend beyond the compiled scene.
 HALFLIGHT_INLINE std::optional<Corners16> corners_for_kernels(const Compiled& compiled, Isa isa, const PatchShape& a, const PatchShape& b,
                                                               const std::array<glm::dvec3, 4>& p, const std::array<glm::dvec3, 4>& q) {
   Corners16 c;
@@ -89,8 +89,8 @@ HALFLIGHT_INLINE OccluderList Scene::list_of(const OccluderList* parent, const P
     HALFLIGHT_DISPATCH(isa_, widen(c));  // faces are compared with the corners
   }
 
-  // A polygon matters only if some corner lies behind its plane and another before it, by more than rounding: half the skin of
-  // scene.hpp for points that are themselves known to a fraction of it.
+  // A polygon matters only if one corner lies behind its plane and another in front of it, by more than rounding: half the skin of
+  // scene.hpp, because the points are accurate to a fraction of it.
   const auto touches = [&](std::uint32_t object) {
     const Record& r = records_[object];
     double low = infinity, high = -infinity;
@@ -102,7 +102,7 @@ HALFLIGHT_INLINE OccluderList Scene::list_of(const OccluderList* parent, const P
     }
     return !(low - bulge >= -0.5 * rounding_ || high + bulge <= 0.5 * rounding_);
   };
-  std::array<std::optional<bool>, 2> skipped;  // a convex solid kept as faces is asked for each of them
+  std::array<std::optional<bool>, 2> skipped;  // cached, because a convex solid with stored faces is tested for each of them
   const auto skips = [&](std::uint32_t object) {
     if (!objects_[object].convex()) { return false; }
     std::optional<bool>& known = skipped[object == a.owner ? 0 : 1];
@@ -123,7 +123,8 @@ HALFLIGHT_INLINE OccluderList Scene::list_of(const OccluderList* parent, const P
   return list;
 }
 
-// Of a solid none of whose faces is in the list the segments cross none. So all are within it or none is, and one point in the air tells.
+// If a solid has no face in the list, no segment crosses its surface. So all segments are inside or all are outside, and one point in the
+// air decides.
 HALFLIGHT_INLINE void Scene::drop_guards(OccluderList& list, const Corners16& corners) const {
   const std::array<std::uint32_t, OccluderList::capacity> shapes = list.shapes_;
   const auto* const end = shapes.begin() + list.count_;
@@ -139,7 +140,7 @@ HALFLIGHT_INLINE void Scene::drop_guards(OccluderList& list, const Corners16& co
   }
 }
 
-// Are all points on or in the convex object, as well as rounding can tell? Then so is their hull.
+// Are all points on or in the convex object, within rounding? Then so is their hull.
 HALFLIGHT_INLINE bool Scene::within(std::uint32_t object, std::span<const glm::dvec3> points) const {
   const PlacedObject& body = objects_[object];
   for (const glm::dvec3& p : points) {
@@ -154,8 +155,8 @@ HALFLIGHT_INLINE bool Scene::within(std::uint32_t object, std::span<const glm::d
   return true;
 }
 
-// A room kept as faces blocks nothing between patches if none of its faces may, and a point in the air, or an owner, tells that they are in
-// it. A convex room blocks nothing between patches that lie in it or on it.
+// A room with stored faces blocks nothing between patches if none of its faces may, and a point in the air or an owner shows that they
+// are inside. A convex room blocks nothing between patches in it or on it.
 HALFLIGHT_INLINE bool Scene::rooms_clear(const PatchShape& a, const PatchShape& b, const OccluderList& list,
                                          const Corners16& corners) const {
   for (const Guard& room : compiled_.face_rooms) {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 
-// Occlusion of one segment and of sixteen: the fast searches of kernels.hpp in front of the law of scene.hpp.
+// Occlusion of one segment and of sixteen: the fast searches of kernels.hpp, followed by the double-precision law of scene.hpp.
 //
-// Segments may lie anywhere: one that leaves the compiled scene is clipped to where something is. Rooms come last: where both ends are in a
-// convex one, or on it, it does not block.
+// Segments may lie anywhere: one that extends beyond the compiled scene is clipped to it. Rooms come last: if both ends lie in or on a
+// convex room, it does not block.
 
 #include <algorithm>
 #include <bit>
@@ -28,8 +28,8 @@ namespace raycast {
 
 namespace detail {
 
-// A segment that leaves the compiled scene, cut to what lies within `lane_cube` of its middle: in lane `lane` of `rays`. False: nothing
-// does. Requires ends within `farthest_cut`.
+// Clips a segment that extends beyond the compiled scene to `lane_cube` around its middle and stores it in lane `lane` of `rays`. Returns
+// false if nothing is left. Requires ends within `farthest_cut`.
 HALFLIGHT_INLINE bool clip(const Compiled& scene, const Segment& segment, unsigned lane, Rays16& rays) {
   const glm::dvec3 o = scene.local(segment.origin), d = segment.direction * scene.scale;
   double t0 = 0.0, t1 = 1.0;
@@ -55,7 +55,7 @@ HALFLIGHT_INLINE bool clip(const Compiled& scene, const Segment& segment, unsign
 
 }  // namespace detail
 
-// Asks the law about one object, or about one face of an open surface, for some lanes.
+// Evaluates the law for one object, or one face of an open surface, in some lanes.
 struct Scene::Exact {
   const Scene& scene;
   const Segments16& segments;
@@ -79,7 +79,7 @@ struct Scene::Exact {
   }
 };
 
-// The same for one segment.
+// As above for one segment.
 struct Scene::ExactOne {
   const Scene& scene;
   const Segment& segment;
@@ -94,8 +94,8 @@ struct Scene::ExactOne {
   }
 };
 
-// Of lanes that no face of a room blocks, those that may lie in the solid around it. As for every solid kept as faces, an end on it tells,
-// and so does one point in the air.
+// Of lanes in which no face of a room blocks, returns those that may lie in the solid around the room. As with every solid with stored
+// faces, an end on it decides, or one point in the air.
 HALFLIGHT_INLINE std::uint32_t Scene::may_be_around(const Guard& room, const Rays16& rays, std::uint32_t lanes) const {
   for (std::uint32_t rest = lanes; rest; rest &= rest - 1) {
     const auto i = static_cast<unsigned>(std::countr_zero(rest));
@@ -104,7 +104,7 @@ HALFLIGHT_INLINE std::uint32_t Scene::may_be_around(const Guard& room, const Ray
   return HALFLIGHT_DISPATCH(isa_, not_in_air(room.air, rays, lanes));
 }
 
-// Which of `lanes` rooms block, `near` being those whose place in `rays` is that of the segment itself.
+// Which of `lanes` are blocked by rooms? `near`: the lanes whose entry in `rays` is the segment itself, not clipped.
 HALFLIGHT_INLINE std::uint32_t Scene::blocked_by_rooms(const Segments16& segments, const Rays16& rays, std::uint32_t near,
                                                        std::uint32_t lanes) const {
   const Exact exact{*this, segments};

@@ -81,7 +81,7 @@ HALFLIGHT_INLINE double planar_tolerance(std::span<const glm::dvec3> corners, do
 
 HALFLIGHT_INLINE std::optional<std::string> polygon_fault(std::span<const glm::dvec3> corners, double rounding) {
   const std::size_t n = corners.size();
-  const auto name = [](std::size_t i) { return std::to_string(i + 1); };  // people count from one
+  const auto name = [](std::size_t i) { return std::to_string(i + 1); };  // messages count from one
   const auto parts = [](double part) {
     std::array<char, 32> text{};
     std::snprintf(text.data(), text.size(), "%.2g", part);

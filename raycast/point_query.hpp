@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Searches of a Bvh from a point: what lies around it, and what lies nearest to it. What the items are is the caller's business.
-// Both are exact in terms of the boxes that the tree was built from.
+// Searches of a Bvh from a point: what lies around it, and what is nearest to it. The caller defines the items. Both searches are exact
+// with respect to the boxes from which the tree was built.
 
 #include <algorithm>
 #include <cstdint>
@@ -17,8 +17,8 @@
 
 namespace raycast {
 
-// Calls visit(item) -> bool for the items of every leaf whose box, and those of all nodes above it, are wanted(box), until one returns
-// true.
+// Calls visit(item) -> bool for the items of every leaf for which wanted(box) holds for its box and the boxes of all its ancestors, until
+// visit returns true.
 template <class Wanted, class Visit>
 bool any_within(const Bvh& bvh, Wanted&& wanted, Visit&& visit) {
   if (bvh.empty()) { return false; }
@@ -41,7 +41,7 @@ bool any_within(const Bvh& bvh, Wanted&& wanted, Visit&& visit) {
       bvh, Open{0}, [&](const Open& at) { return wanted(nodes[at.child].box); }, leaf, inner);
 }
 
-// Calls visit(item) for the items of every leaf whose box contains p, faces included: for all items whose own box contains p, and
+// Calls visit(item) for the items of every leaf whose box contains p (border included): for all items whose own box contains p, and
 // possibly more.
 template <class Visit>
 void around(const Bvh& bvh, const glm::dvec3& p, Visit&& visit) {
@@ -59,8 +59,8 @@ void around(const Bvh& bvh, const glm::dvec3& p, Visit&& visit) {
   return sum;
 }
 
-// The item nearest to p; nothing in an empty tree. squared(item) is the squared distance of an item from p, and no item reaches out
-// of its box. Of items equally far, the one that is met first.
+// The item nearest to p; nothing in an empty tree. squared(item): squared distance of an item from p; every item must lie within its box.
+// Of equally distant items, the first one found.
 template <class Squared>
 [[nodiscard]] std::optional<std::uint32_t> nearest(const Bvh& bvh, const glm::dvec3& p, Squared&& squared) {
   if (bvh.empty()) { return std::nullopt; }

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Zeros of a function on an interval, for surfaces without a formula for theirs.
+// Zeros of a function on an interval, for surfaces without a closed formula.
 //
-//   bracketed_root   one zero between two points of different sign: Newton's step where it stays inside and converges, else halving
+//   bracketed_root   one zero between two points of different sign: Newton's method while it stays inside and converges, else bisection
 //   sign_changes     all of them, for a function that is the sum of a convex and a concave one
 //
-// The second needs no bound from outside: the slope of a convex function grows and that of a concave one falls, so over [a, b]
+// The second needs no bounds from the caller: the slope of a convex function increases and that of a concave one decreases, so over [a,
+// b]
 //      convex'(a) + concave'(b)  <=  f'  <=  convex'(b) + concave'(a).
-// An interval on which f' keeps its sign has one sign change or none; one on which f cannot reach 0 by these slopes has none; any other
-// one is divided. Near a touching point the division ends when what is left lies within `negligible` of 0.
+// An interval on which f' keeps its sign has at most one sign change; one on which f cannot reach 0 with these slopes has none; any other
+// interval is divided. Near a touching point the division ends when the remaining values are within `negligible` of 0.
 
 #include <algorithm>
 #include <cmath>
@@ -24,11 +25,11 @@ struct Sample {
   double value, slope;
 };
 
-// f(s) -> Sample, with different signs at a < b: it rises through 0 or falls. The zero to 2 u of the larger |end|, or to where the value
-// is 0. `s` is the first guess. Two things would let halving take fifty values, one a bit:
-// - Where f rises like a root of the distance from a or b, its zero may lie any number of powers of two from there, and Newton's steps lead
-//   out or grow without end. So the distance from that end is halved in its logarithm, the geometric mean.
-// - At the zero Newton's steps are rounding, and lead out of the bracket as often as in. Then a point a little beyond the zero closes it.
+// f(s) -> Sample, with different signs at a < b (`rising`: from negative to positive). Returns the zero with an error of at most 2 u of the
+// larger |end|, or where the value is 0. `s`: first guess. Two cases would make bisection take fifty evaluations, one per bit:
+// - If f behaves like a root of the distance from a or b, its zero may be many powers of two away, and Newton's steps leave the bracket or
+//   grow endlessly. So the distance from that end is bisected in its logarithm (geometric mean).
+// - At the zero Newton's steps are mere rounding and leave the bracket as often as not. Then a point slightly beyond the zero closes it.
 template <class F>
 [[nodiscard]] double bracketed_root(F&& f, double a, double b, bool rising, double s) {
   const double start = a, end = b, shortest = eps_root * std::max(std::abs(a), std::abs(b)), rounding = 8.0 * shortest;
@@ -37,7 +38,7 @@ template <class F>
     return far(least, most) ? std::sqrt(std::max(least, shortest) * most) : 0.5 * (least + most);
   };
   double last = b - a;
-  bool beyond = false;  // s was put beyond the zero that Newton's steps had found
+  bool beyond = false;  // was s placed beyond the zero that Newton's steps had found?
   for (int i = 0; i < 200; ++i) {
     const Sample at = f(s);
     if (at.value == 0.0) { return s; }
@@ -66,14 +67,14 @@ template <class F>
   return s;
 }
 
-// A value with the slopes of its convex and of its concave part; slopes may be infinite where the parts have vertical tangents.
+// A value, with the slopes of its convex and its concave part; slopes may be infinite where a part has a vertical tangent.
 struct SplitSample {
   double value, convex, concave;
 };
 
-// Calls found(lo, hi, rising, guess) for every sign change of f on [a, b], from left to right; f is monotone on [lo, hi] (or that is as
-// short as 4 u of the larger |end|), and `guess` is about where its chord is 0. f(s) -> SplitSample; a value of 0 counts as positive. Two
-// sign changes between which |f| stays below `negligible` may be left out. Typically 5 to 15 values.
+// Calls found(lo, hi, rising, guess) for every sign change of f on [a, b], from left to right. f is monotone on [lo, hi] (or the interval
+// is as short as 4 u of the larger |end|), and `guess` is about where its chord is 0. f(s) -> SplitSample; a value of 0 counts as
+// positive. Two sign changes between which |f| stays below `negligible` may be omitted. Typically takes 5 to 15 values.
 template <class F, class Found>
 void sign_changes(F&& f, double a, double b, double negligible, Found&& found) {
   struct Part {
@@ -99,12 +100,13 @@ void sign_changes(F&& f, double a, double b, double negligible, Found&& found) {
     }
     double middle = p.a + 0.5 * width;
     if (!rises && !falls) {
-      // How near to 0 the slopes let f come between the ends: g = |f| begins at ga with a slope of at least -down, ends at gb.
+      // How close to 0 the slopes allow f to come between the ends: g = |f| begins at ga with a slope of at least -down and ends at gb
+      // with at most up.
       const double ga = std::abs(fa), gb = std::abs(fb), down = fa < 0.0 ? most : -least, up = fa < 0.0 ? -least : most;
       const double finite_down = down < infinity ? ga - down * width : -infinity, finite_up = up < infinity ? gb - up * width : -infinity;
       double lowest = std::max(finite_down, finite_up);
       if (down < infinity && up < infinity) {
-        const double meet = (ga - gb + up * width) / (down + up);  // where the two lines do
+        const double meet = (ga - gb + up * width) / (down + up);  // where the two lines intersect
         if (meet > 0.0 && meet < width) {
           lowest = ga - down * meet;
           middle = p.a + std::clamp(meet, 0.1 * width, 0.9 * width);

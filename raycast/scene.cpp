@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 
-// The law of scene.hpp, and how its objects are compiled.
+// Implements the law of scene.hpp, and the compilation of objects.
 
 #include <raycast/scene.hpp>
 
@@ -65,7 +65,7 @@ HALFLIGHT_INLINE void Scene::leave_out(std::span<const std::uint32_t> copies) {
 }
 
 HALFLIGHT_INLINE void Scene::compile() {
-  // Up to here a loop over all is as fast as the tree. (tests/bench/rays)
+  // Up to this number of shapes, a loop over all is as fast as the tree (tests/bench/rays).
   constexpr std::size_t loop_limit = 64;
   double touch = 0.0;
   for (const Record& record : records_) { touch = std::max(touch, record.touch); }
@@ -112,7 +112,7 @@ HALFLIGHT_INLINE double Scene::ray_work() const {
   for (std::uint32_t i = 0; i < size(); ++i) {
     const PlacedObject& object = objects_[i];
     if (left_out_[i]) { continue; }
-    // Faces that the search decides by itself cost next to nothing. It cannot tell faces that coincide, as of duplicates, from each other.
+    // Faces that the fast search decides by itself cost next to nothing. Coincident faces, as of duplicates, need double precision.
     if (object.flat() && (!object.inside() || compiled_.is_face_room(i)) && at_place[key(object)] == 1) { continue; }
     work += object.object().work() * (whole > 0.0 && !object.inside() ? std::min(1.0, surface(object.bounds()) / whole) : 1.0);
   }
@@ -120,14 +120,14 @@ HALFLIGHT_INLINE double Scene::ray_work() const {
 }
 
 HALFLIGHT_INLINE double Scene::walk_work() const {
-  // Measured on six scenes of 2 to 22 nodes a ray: a path's ray takes .3 to 1 us among few polygons, and .13 us a node.
+  // Measured on six scenes with 2 to 22 nodes per ray: a path's ray takes 0.3 to 1 us among few polygons, plus 0.13 us per node.
   constexpr double few = 4.0, nodes_a_ray = 8.0;
   return std::max(0.0, compiled_.walk_work() - few) / nodes_a_ray;
 }
 
 HALFLIGHT_INLINE bool Scene::blocks(const Line& line, const End& a, const End& b, std::uint32_t i) const {
   const Record& r = records_[i];
-  if (r.corner_count) {  // a polygon: the ends lie on different sides of its plane, both out of the skin
+  if (r.corner_count) {  // a polygon: the ends lie on different sides of its plane, both beyond the skin
     if (i == a.owner || i == b.owner) { return false; }
     const double from = glm::dot(r.normal, line.segment.origin - r.point);
     const double to = from + glm::dot(r.normal, line.segment.direction);
@@ -136,21 +136,21 @@ HALFLIGHT_INLINE bool Scene::blocks(const Line& line, const End& a, const End& b
     return passes(line, r);
   }
   const PlacedObject& object = objects_[i];
-  // A room whose body the line passes through once is solid before it and behind it: two spans that belong to the ends.
+  // A room whose body the line passes through once is solid before and behind it: these two spans belong to the ends.
   if (i == a.owner && i == b.owner && (object.convex() || (object.inside() && object.passes_once(line.segment)))) { return false; }
   double entry = 0.0;
   if (!object.inside() && !line.slabs(object.bounds(), 0.0, 1.0, entry)) { return false; }
   return blocks_by_spans(line.segment, a, b, i);
 }
 
-// Does a span of object i stop the segment?
+// Does a span of object i block the segment?
 struct Scene::Stops {
   const Scene& scene;
   const Segment& s;
   const End &a, &b;
   std::uint32_t i;
   double skin_a = scene.skin(a, i), skin_b = scene.skin(b, i);
-  // An end out of the bounds, skin included, cannot touch: the common case, decided without normals.
+  // An end outside the bounds, skin included, cannot touch. This common case is decided without normals.
   bool near_a = scene.objects_[i].inside() || scene.objects_[i].bounds().contains(s.origin, skin_a);
   bool near_b = scene.objects_[i].inside() || scene.objects_[i].bounds().contains(s.at(1.0), skin_b);
 
@@ -164,7 +164,7 @@ struct Scene::Stops {
     const auto ends = [&] { return out.t >= 1.0 || depth(out, 1.0 - out.t) <= skin_b; };
     if (near_a && depth(out, out.t) <= skin_a && begins()) { return false; }
     if (near_b && depth(in, 1.0 - in.t) <= skin_b && ends()) { return false; }
-    // The owner's own span that begins in the skin of the source (a corner of a box, by rounding), and likewise at the target.
+    // The owner's own span that begins within the skin of the source (at a corner of a box, by rounding); likewise at the target.
     if (near_a && i == a.owner && depth(in, in.t) <= skin_a) { return false; }
     if (near_b && i == b.owner && depth(out, 1.0 - out.t) <= skin_b) { return false; }
     return !scene.within_owner(s, a, true, span, i) && !scene.within_owner(s, b, false, span, i);
@@ -195,7 +195,7 @@ HALFLIGHT_INLINE bool Scene::touches(const glm::dvec3& p, const End& end, std::u
   return std::abs(glm::dot(on.normal, p - on.position)) <= 0.5 * skin(end, object);
 }
 
-// Does the span of object i begin and end before the segment comes out of its source's owner, or after it went into its target's?
+// Does the span of object i begin and end before the segment leaves the owner of its source, or after it enters the owner of its target?
 HALFLIGHT_INLINE bool Scene::within_owner(const Segment& s, const End& end, bool source, const Span& span, std::uint32_t i) const {
   if (end.owner == no_object || end.owner == i) { return false; }
   const PlacedObject& owner = objects_[end.owner];
@@ -253,20 +253,20 @@ HALFLIGHT_INLINE void Scene::approach(const Line& line, const End& a, std::uint3
     if (near_a && depth(i, s, span.in, span.in.t) <= skin_a && (i == a.owner || depth(i, s, span.out, span.out.t) <= skin_a)) { continue; }
     if (!(span.in.t <= nearest.limit)) { return; }
     offer(s, Hit{span.in.t, i, span.in.sheet, object.solid() || along(i, s, span.in) < 0.0}, nearest);
-    if (object.solid()) { return; }  // of an open surface another face may lie in the same place and show its front
+    if (object.solid()) { return; }  // on an open surface another face may lie at the same place and show its front
   }
 }
 
-// Is the hit as near as `first`, the nearest one, as well as rounding can tell? Ties are looked for within `tie_reach`: beyond, the
-// nearer parameter decides.
+// Is the hit as near as `first`, the nearest one, within rounding? Ties are recognised only within `tie_reach`; beyond that the nearer
+// parameter decides.
 HALFLIGHT_INLINE bool Scene::ties(const Segment& ray, const Hit& first, const Hit& hit) const {
   const double tolerance = skin(end_at(first.object), hit.object), gap = std::abs(hit.t - first.t);
   return gap * glm::length(ray.direction) <= tie_reach * tolerance &&
          gap * std::abs(along(hit.object, ray, {hit.t, hit.sheet})) <= tolerance;
 }
 
-// Of the hits that tie with the nearest one that covers is taken. All of them are remembered: were each compared with the one taken before
-// alone, a row of surfaces, each within the tolerance of the next, would lead away from the first.
+// Of the hits that tie with the nearest one, the covering one is taken. All of them are stored: if each were compared only with the one
+// taken before, a chain of surfaces, each within the tolerance of the next, would lead away from the first.
 HALFLIGHT_INLINE void Scene::offer(const Segment& ray, const Hit& hit, Nearest& nearest) const {
   auto& [best, limit, count, tied] = nearest;
   const bool first = count == 0 || hit.t < tied[0].t;
@@ -291,14 +291,14 @@ HALFLIGHT_INLINE void Scene::offer(const Segment& ray, const Hit& hit, Nearest& 
 
 HALFLIGHT_INLINE bool Scene::covered(const glm::dvec3& p, const glm::dvec3& n, std::uint32_t owner) const {
   if (owner != no_object && left_out_[owner]) { return true; }
-  const Segment out_of_p{p, n};  // t is a length
+  const Segment out_of_p{p, n};  // unit direction, so t is a length
   const Line line(out_of_p);
   const End end = end_at(owner);
   struct Coincident {
     std::uint32_t object;
     glm::dvec3 point, normal;
   };
-  std::vector<Coincident> later;  // as a rule none
+  std::vector<Coincident> later;  // usually empty
   const auto covers = [&](std::uint32_t i) {
     if (i == owner) { return false; }
     const PlacedObject& object = objects_[i];
@@ -324,12 +324,12 @@ HALFLIGHT_INLINE bool Scene::covered(const glm::dvec3& p, const glm::dvec3& n, s
     }
     return false;
   };
-  const double near = end.base + slack_ + end.touch;  // at least every skin
+  const double near = end.base + slack_ + end.touch;  // upper bound of every skin
   const auto room_covers = [&](const Guard& room) { return covers(room.object); };
   if (std::any_of(compiled_.rooms.begin(), compiled_.rooms.end(), covers)) { return true; }
   if (std::any_of(compiled_.face_rooms.begin(), compiled_.face_rooms.end(), room_covers)) { return true; }
   if (objects_along(compiled_, out_of_p, -near, near, covers)) { return true; }
-  // What is buried itself covers nothing: of a row of surfaces that coincide each with the next, the first buries the last.
+  // A covered surface covers nothing: in a chain of surfaces, each coincident with the next, the first would otherwise cover the last.
   std::sort(later.begin(), later.end(), [](const Coincident& a, const Coincident& b) { return a.object > b.object; });
   return std::any_of(later.begin(), later.end(), [&](const Coincident& c) { return !covered(c.point, c.normal, c.object); });
 }

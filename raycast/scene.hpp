@@ -3,27 +3,27 @@
 
 // All objects of a scene, compiled for rays (compiled.hpp), and the law of occlusion in double precision.
 //
-// The ends of a visibility segment lie on surfaces, up to rounding, or on chord patches inside convex ones (paper 4.3). Instead of an
-// epsilon along the ray, spans decide:
-//   - of an end's owner, the span that contains the end is dropped: a ray that leaves a solid is never stopped by its own skin, while a
-//     concave solid still shadows itself further on. A polygon that is an owner is left out, and so is a convex object that owns both ends;
-//   - of every other object, a span is dropped when the end only touches it: the span begins at the end, up to a skin, and the end is no
-//     deeper behind the surface where the span ends than a skin; or when it begins and ends within the owner's own dropped span (up to the
-//     skin): a chord point inside its owner stands for the owner's surface, and what is sunk into the owner, or fills the same place, is
-// not
-//     in front of that.
-// A depth is measured across the surface, |t_crossing - t_end| |n.d|, so it does not depend on the angle of the ray. For a convex solid
-// it bounds how deep any point of the dropped part lies inside.
+// The ends of a visibility segment lie on surfaces, up to rounding, or on chord patches inside convex ones (paper 4.3). Spans, not an
+// epsilon along the ray, decide what blocks:
+//   - Of an end's owner, the span that contains the end is ignored: a ray that leaves a solid is never stopped by its own surface, while a
+//     concave solid can still shadow itself further on. A polygon that is an owner is ignored, and so is a convex object that owns both
+//     ends.
+//   - Of every other object, a span is ignored if the end merely touches it: the span begins at the end, up to a skin, and the end is no
+//     deeper than a skin behind the surface where the span ends. It is also ignored if it begins and ends within the owner's own ignored
+//     span (up to the skin): a chord point inside its owner represents the owner's surface, and what is sunk into the owner, or fills the
+//     same place, is not in front of that surface.
+// Depths are measured perpendicular to the surface, |t_crossing - t_end| |n.d|, so they do not depend on the angle of the ray. For a
+// convex solid this is an upper bound of the depth of every point in the ignored part.
 //
-// Skins. `rounding` = eps_surface M, M the largest coordinate of the scene (tolerances.hpp). To it comes what the two surfaces are known to
-// be non-planar by, and, between two objects, tol_contact of the smaller one's diameter: so closely a lamp must fit the ceiling to count as
-// lying on it. The same skin decides in covered(), so what is coincident there is so here too.
+// Skins. `rounding` = eps_surface M, with M the largest coordinate of the scene (tolerances.hpp). Added to it are the non-planarity of
+// the two surfaces and, between two objects, tol_contact of the smaller one's diameter: a lamp that close to the ceiling counts as lying
+// on it. covered() uses the same skin, so both agree on what is coincident.
 //
-// This law, object by object, is blocks(). The fast searches answer from single precision where its error bound allows, and ask
-// blocks() elsewhere: their answers are those of asking blocks() about every object, bit for bit, for any instruction set.
+// This law, object by object, is blocks(). The fast searches answer in single precision where its error bound allows, and call blocks()
+// otherwise. Their answers are those of blocks() for every object, bit for bit, with any instruction set.
 //
-// All queries are const, thread-safe, and use no heap (a line that crosses a mesh more than eight times excepted, and covered() where
-// surfaces coincide).
+// All queries are const, thread-safe, and use no heap memory (except for a line that crosses a mesh more than eight times, and covered()
+// where surfaces coincide).
 
 #include <algorithm>
 #include <array>
@@ -57,15 +57,15 @@ struct Entries;
 
 class Scene {
  public:
-  // Every instruction set gives the same answers; one that the machine does not have must not be named.
+  // Every instruction set gives the same answers; `isa` must be available on this machine.
   explicit Scene(std::vector<PlacedObject> objects, Isa isa = best_isa());
 
-  // From now on this caster answers all rays. What stands between patches without any ray, and what is covered, the scene knows as before.
-  // Where surfaces coincide, or a back is met, the scene searches after all.
+  // From now on this caster answers all rays. Occluder lists and covered() are still computed by the scene, and so are hits where
+  // surfaces coincide or a back is met.
   void ask(OtherCaster caster) { other_ = std::move(caster); }
 
-  // From now on no ray meets these objects: each is the same surface at the same place as one that comes after it and is not left out.
-  // Their own points count as covered.
+  // From now on rays ignore these objects. Each must be the same surface at the same place as a later object that is not left out. Their
+  // points count as covered.
   void leave_out(std::span<const std::uint32_t> copies);
   [[nodiscard]] bool left_out(std::uint32_t i) const { return left_out_[i]; }
 
@@ -73,13 +73,13 @@ class Scene {
   [[nodiscard]] std::uint32_t size() const { return static_cast<std::uint32_t>(objects_.size()); }
   [[nodiscard]] const Box& bounds() const { return bounds_; }
   [[nodiscard]] double diameter() const { return bounds_.diameter(); }
-  // About what the first hit of a ray costs, in rays through a scene of few polygons. A ray comes through the bounds of an object as often
-  // as their surface is smaller than that of the scene (Cauchy 1832).
+  // Approximate cost of the first hit of a ray, in rays through a scene of few polygons. The probability that a ray meets the bounds of
+  // an object is the ratio of their surface to that of the scene (Cauchy 1832).
   [[nodiscard]] double ray_work() const;
-  // What it costs to find the objects that it may meet, in the same unit, beyond what that is among few polygons.
+  // Additional cost of finding the objects that a ray may meet, beyond that among few polygons; in the same unit.
   [[nodiscard]] double walk_work() const;
-  // About what it cost to find the first hit of this ray, which lies at t = 1, in microseconds of a core of 2024: by what the search opens
-  // and asks on the way there, so it is the same on any machine.
+  // Approximate cost of finding the first hit of this ray, which lies at t = 1, in microseconds of a core of 2024. Computed from the
+  // nodes that the search opens and the tests that it makes, so it is the same on any machine.
   [[nodiscard]] double ray_work(const Segment& ray) const;
   [[nodiscard]] std::size_t bytes() const {  // of the compiled scene, without the objects themselves
     return objects_.capacity() * sizeof(PlacedObject) + records_.capacity() * sizeof(Record) + corners_.capacity() * sizeof(glm::dvec3) +
@@ -87,47 +87,46 @@ class Scene {
   }
 
   // Does anything stand between the two ends, t in (0, 1)? The owners are the objects on which the ends lie. Symmetric: exchanging ends
-  // and owners gives the same answer (up to the rounding of grazing rays). A segment of no length is never occluded.
+  // and owners gives the same answer (up to the rounding of grazing rays). A segment of length zero is never occluded.
   [[nodiscard]] bool occluded(const Segment& segment, std::uint32_t source_owner = no_object, std::uint32_t target_owner = no_object) const;
 
-  // The lanes whose segment is occluded: bit for bit the answers of occluded() for each. `hint` remembers what blocked last, a shape
-  // that is looked at first: keep one per pair of patches, or per patch.
+  // The lanes whose segment is occluded: bit for bit the answers of occluded() for each. `hint`: the last blocker, a shape that is tested
+  // first; keep one per pair of patches, or per patch.
   [[nodiscard]] std::uint32_t occluded16(const Segments16& segments, std::uint32_t& hint) const;
   [[nodiscard]] std::uint32_t occluded16(const Segments16& segments) const {
     std::uint32_t hint = no_shape;
     return occluded16(segments, hint);
   }
 
-  // What may occlude segments between two patches (shaft.hpp), from the whole scene or from the list of a pair of their ancestors.
+  // The possible blockers of segments between two patches (shaft.hpp), from the whole scene or from the list of a pair of their ancestors.
   [[nodiscard]] OccluderList occluders(const PatchShape& a, const PatchShape& b) const;
   [[nodiscard]] OccluderList filter(const OccluderList& parent, const PatchShape& a, const PatchShape& b) const;
   [[nodiscard]] std::uint32_t object_of(std::uint32_t shape) const { return compiled_.object_of(shape); }  // of a shape in a list
-  // As above, for segments between the patches of the list: the same answers.
+  // As above, for segments between the patches of the list; the answers are the same.
   [[nodiscard]] std::uint32_t occluded16(const Segments16& segments, const OccluderList& list, std::uint32_t& hint) const;
 
-  // The law for one object: what occluded() is defined by. In double precision, without any search.
+  // The law for one object, which defines occluded(). In double precision, without any search.
   [[nodiscard]] bool occluded_by(std::uint32_t object, const Segment& segment, std::uint32_t source_owner = no_object,
                                  std::uint32_t target_owner = no_object) const {
     return has_line(segment) && blocks(Line(segment), end_at(source_owner), end_at(target_owner), object);
   }
 
-  // The first surface met at t > 0, without upper limit: where a span of any object begins. Of surfaces that coincide the one that
-  // covers is met: the later object when they face the same way, the front when they stand back to back.
-  // `source_sheet` as in Segments16.
+  // The first surface at t > 0, without upper limit: where a span of any object begins. Of coincident surfaces the covering one is hit:
+  // the later object if they face the same way, the front if they stand back to back. `source_sheet`: as in Segments16.
   [[nodiscard]] std::optional<Hit> closest(const Segment& ray, std::uint32_t source_owner = no_object,
                                            std::uint32_t source_sheet = unknown_sheet) const;
 
-  // As above for sixteen rays, bit for bit; the targets' owners do not matter. Rays that run close to each other are faster so.
+  // As above for sixteen rays, bit for bit; the targets' owners are ignored. Faster if the rays are close to each other.
   [[nodiscard]] Hits16 closest16(const Segments16& rays) const;
 
-  // Is the point p with air normal n (unit) of an object's surface buried: does another object fill the air just in front of p (p is
-  // inside it, or it stands on p), or does a later object's surface that is not buried coincide and face the same way? Surfaces without
-  // thickness that stand back to back (a sheet with two sides) do not bury each other. So at every place something is seen: of all
-  // that coincide there the foremost, or a later one within its skin.
+  // Is the point p of an object's surface, with unit normal n into the air, covered? It is if another object fills the air just in front
+  // of p (p is inside that object, or the object stands on p), or if a later object's surface that is not covered itself coincides and
+  // faces the same way. Surfaces without thickness that stand back to back (a two-sided sheet) do not cover each other. So at every place
+  // exactly one surface is visible: the foremost of those that coincide there, or a later one within its skin.
   [[nodiscard]] bool covered(const glm::dvec3& p, const glm::dvec3& n, std::uint32_t owner) const;
 
  private:
-  struct Record {                                      // what a query needs to know of an object
+  struct Record {                                      // data of an object for queries
     glm::dvec3 normal{0.0}, point{0.0};                // of a polygon
     std::uint32_t first_corner = 0, corner_count = 0;  // 0 corners: not a polygon
     double touch = 0.0;                                // tol_contact of its diameter
@@ -147,16 +146,16 @@ class Scene {
     Hit hit{infinity, no_object, 0, true};
     double limit = infinity;
     std::uint32_t count = 0;
-    std::array<Hit, 4> tied{};  // the nearest hit, then those as near as rounding can tell; of more than four the last object
+    std::array<Hit, 4> tied{};  // the nearest hit, then those equally near within rounding; if there are more than four, the last object
   };
-  struct Search {  // for the first hit of a ray
+  struct Search {  // search for the first hit of a ray
     Segment ray;
     End source;
     std::uint32_t source_sheet = unknown_sheet;
     Nearest nearest{};
-    double t0 = 0.0, t1 = infinity;  // of the ray: the part that runs through the compiled scene
+    double t0 = 0.0, t1 = infinity;  // range of the ray within the compiled scene
 
-    // The part within a cube around everything. False: there is none.
+    // Sets the range within a cube around the whole scene; returns false if there is none.
     [[nodiscard]] bool clip(const Compiled& scene);
   };
 
@@ -171,8 +170,8 @@ class Scene {
   void drop_guards(OccluderList& list, const Corners16& corners) const;
   [[nodiscard]] bool within(std::uint32_t object, std::span<const glm::dvec3> points) const;
   [[nodiscard]] bool rooms_clear(const PatchShape& a, const PatchShape& b, const OccluderList& list, const Corners16& corners) const;
-  // Is the point in the convex room number r, and at least `depth` from its walls, or on one as well as rounding can tell? False for rooms
-  // that do not tell (Walls).
+  // Is the point in the convex room number r, at least `depth` from its walls or, within rounding, on one of them? False for rooms
+  // without Walls.
   [[nodiscard]] bool in_room(std::size_t r, const glm::dvec3& p, double depth = 0.0) const {
     const Walls& walls = walls_[r];
     const auto within = [&](const glm::dvec3& point, const glm::dvec3& normal) {
@@ -186,7 +185,7 @@ class Scene {
            (!walls.planes.empty() &&
             std::all_of(walls.planes.begin(), walls.planes.end(), [&](const Plane& wall) { return within(wall.point, wall.normal); }));
   }
-  // What the ray meets of rooms, after all else: a point within a convex room, farther from its walls than ties reach, is met before these.
+  // Adds hits with rooms, after all other objects: a point in a convex room, farther from its walls than ties extend, is hit before these.
   void approach_rooms(Search& search) const;
   [[nodiscard]] std::uint32_t may_be_around(const Guard& room, const Rays16& rays, std::uint32_t lanes) const;
   [[nodiscard]] std::uint32_t blocked_by_rooms(const Segments16& segments, const Rays16& rays, std::uint32_t near,
@@ -199,7 +198,7 @@ class Scene {
   [[nodiscard]] double skin(const End& end, std::uint32_t i) const {
     return end.base + records_[i].slack + (end.owner == i ? 0.0 : std::min(end.touch, records_[i].touch));
   }
-  // How far the point `dt` further on lies from the plane of the surface at the crossing.
+  // Distance of the point `dt` beyond the crossing from the surface's plane there.
   [[nodiscard]] double depth(std::uint32_t i, const Segment& s, const Crossing& at, double dt) const {
     return dt < infinity ? dt * std::abs(along(i, s, at)) : infinity;
   }
@@ -212,10 +211,10 @@ class Scene {
   }
   [[nodiscard]] bool blocks(const Line& line, const End& a, const End& b, std::uint32_t i) const;
   [[nodiscard]] bool blocks_by_spans(const Segment& s, const End& a, const End& b, std::uint32_t i) const;
-  // Of an open surface every crossing stands for itself: it blocks where one of its faces does.
+  // On an open surface every crossing counts by itself: the surface blocks if one of its faces does.
   [[nodiscard]] bool blocks_by_face(const Segment& s, const End& a, const End& b, std::uint32_t i, std::uint32_t face) const;
   struct Stops;
-  // Does the ray meet this face of an open surface, other than by the skin at its source?
+  // Does the ray hit this face of an open surface, other than within the skin at its source?
   [[nodiscard]] bool meets_face(const Segment& ray, const End& source, std::uint32_t i, std::uint32_t face, const Crossing& at) const;
   // Does the point at an end of a segment lie on the plane of this sheet, well within the skin?
   [[nodiscard]] bool touches(const glm::dvec3& p, const End& end, std::uint32_t object, std::uint32_t sheet) const;
@@ -232,8 +231,8 @@ class Scene {
   std::vector<bool> left_out_;  // by object
   std::vector<Record> records_;
   std::vector<glm::dvec3> corners_;
-  // How a convex room tells whether a point is in it: a polyhedral one by its planes, normals inwards; a curved one by the nearest points
-  // of its sheets. A room of many walls has neither, nor has one whose project() does not find the nearest point.
+  // How a convex room decides whether a point is inside: a polyhedral one by its planes (normals inwards), a curved one by the nearest
+  // points of its sheets. A room of many walls has neither, nor has one whose project() does not find the nearest point.
   struct Walls {
     std::vector<Plane> planes;
     std::uint32_t curved_sheets = 0;
@@ -243,7 +242,7 @@ class Scene {
   OtherCaster other_;
   Isa isa_;
   Box bounds_;
-  double rounding_ = 0.0, slack_ = 0.0;  // slack_: the largest of all objects
+  double rounding_ = 0.0, slack_ = 0.0;  // slack_: largest of all objects
 };
 
 }  // namespace raycast

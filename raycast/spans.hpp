@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The intervals of a line that lie inside a solid, in increasing order and disjoint. A surface without inside (a polygon) gives spans
-// of length zero. The complement of a solid (a room) has spans that begin at -inf and end at +inf; those two ends belong to no sheet.
+// The intervals of a line inside a solid, disjoint and in increasing order. A surface without inside (a polygon) gives spans of length
+// zero. The complement of a solid (a room) has spans that begin at -inf and end at +inf; these two ends belong to no sheet.
 //
-// Spans are made for every ray, so the first eight live inside the object and no heap is touched before the ninth.
+// Spans are made for every ray, so the first eight are stored in the object itself; heap memory is used only beyond these.
 
 #include <array>
 #include <cassert>
@@ -28,7 +28,7 @@ struct Span {
   Crossing in, out;
 };
 
-// A sequence whose first N elements need no heap. T is trivial; the elements are uninitialised until pushed.
+// A sequence whose first N elements need no heap memory. T is trivial; elements are uninitialised until pushed.
 template <class T, std::size_t N>
 class InlineVector {
   static_assert(std::is_trivially_copyable_v<T>);
@@ -71,8 +71,8 @@ class InlineVector {
 
 class Spans {
  public:
-  // Appends a span that begins no earlier than the last one began; one that overlaps or touches the last is merged with it.
-  // A span of negative length (possible by rounding where a line grazes an edge) is dropped.
+  // Appends a span that begins no earlier than the last one; if it overlaps or touches the last one, both are merged. A span of
+  // negative length (possible by rounding where a line grazes an edge) is dropped.
   void push(const Span& span) {
     if (!(span.in.t <= span.out.t)) { return; }
     if (!spans_.empty() && span.in.t <= spans_.back().out.t) {
@@ -82,7 +82,7 @@ class Spans {
     }
     spans_.push(span);
   }
-  // Appends a crossing of a surface without inside, no earlier than the last one: each stands for itself, where two meet as well.
+  // Appends a crossing of a surface without inside, no earlier than the last one. Crossings are never merged, even if two coincide.
   void push(const Crossing& crossing) { spans_.push(Span{crossing, crossing}); }
   void clear() { spans_.clear(); }
   [[nodiscard]] std::size_t size() const { return spans_.size(); }
@@ -91,7 +91,7 @@ class Spans {
   [[nodiscard]] const Span* end() const { return spans_.end(); }
   [[nodiscard]] const Span& operator[](std::size_t i) const { return spans_[i]; }
 
-  // The rest of the line. Spans of length zero vanish: a line that only touches a room's wall stays in the room.
+  // Replaces the spans by their complement. Spans of length zero vanish: a line that only touches a room's wall stays in the room.
   void complement() {
     InlineVector<Span, 8> rest;
     Crossing from{-infinity, no_crossing_sheet};

@@ -45,7 +45,7 @@ HALFLIGHT_INLINE glm::dvec2 Superellipse::point(int i, int n) const {
   double c = k == 0 ? 1.0 : std::cos(2 * std::numbers::pi * k / n), s = k == 0 ? 0.0 : std::sin(2 * std::numbers::pi * k / n);
   if (2 * k == quarter) { s = c; }
   double x = std::pow(c, 2.0 / p_), y = std::pow(s, 2.0 / p_);
-  if (2 * k > quarter) {  // the mirror of an earlier point, bit by bit
+  if (2 * k > quarter) {  // the mirror image of an earlier point, bit by bit
     const glm::dvec2 mirror = point(quarter - k, n);
     x = mirror.y, y = mirror.x;
   }
@@ -54,7 +54,7 @@ HALFLIGHT_INLINE glm::dvec2 Superellipse::point(int i, int n) const {
 }
 
 HALFLIGHT_INLINE double Superellipse::chord_error(int n, double a, double b) const {
-  constexpr int samples = 24;  // an arch is missed by less than 1 % of its height
+  constexpr int samples = 24;  // enough to find the height of an arch within 1 %
   double worst = 0.0;
   for (int i = 0; i < n / 4; ++i) {
     const glm::dvec2 from = point(i, n) * glm::dvec2(a, b), to = point(i + 1, n) * glm::dvec2(a, b), chord = to - from;

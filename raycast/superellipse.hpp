@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The curve |x|^p + |y|^p = 1 and its gauge A(x, y) = (|x|^p + |y|^p)^(1/p), from which superquadrics are made twice: once around the axis,
-// once along the profile. A is homogeneous of degree one; for p >= 1 it is a norm and convex, for p <= 1 it is concave in every quadrant.
+// The curve |x|^p + |y|^p = 1 and its gauge A(x, y) = (|x|^p + |y|^p)^(1/p). Superquadrics use it twice: around the axis and along the
+// profile. A is homogeneous of degree one; for p >= 1 it is a norm and convex, for p <= 1 it is concave in every quadrant.
 //
-// All powers are of ratios between 0 and 1, so nothing overflows or vanishes: A is known to 4 u (1 + 1/p) relative for 0.01 <= p <= 2000.
+// All powers are of ratios between 0 and 1, so nothing overflows: the relative error of A is at most 4 u (1 + 1/p) for 0.01 <= p <= 2000.
 
 #include <cmath>
 #include <utility>
@@ -25,16 +25,15 @@ class Superellipse {
   [[nodiscard]] double p() const { return p_; }
   [[nodiscard]] bool convex() const { return p_ >= 1.0; }
 
-  // The gauge of x, y >= 0 and its derivatives; those of a coordinate that is 0 may be infinite (p < 1).
+  // The gauge of x, y >= 0 and its derivatives; the derivative for a coordinate that is 0 may be infinite (p < 1).
   [[nodiscard]] Gauge operator()(double x, double y) const;
-  // The gauge of x, y >= 0 and its derivative along (ex, ey), which must not leave the quadrant's side of an axis: at a coordinate 0 it is
-  // taken in the direction in which the coordinate grows (or from which it came).
+  // The gauge of x, y >= 0 and its derivative along (ex, ey). At a coordinate of 0 the one-sided derivative into the quadrant is used.
   [[nodiscard]] std::pair<double, double> along(double x, double y, double ex, double ey) const;
-  // The width of the curve at the height z >= 0, y of |y|^p + z^p = 1 (0 beyond its end), and its derivative.
+  // The width of the curve at the height z >= 0, that is, the y with y^p + z^p = 1 (0 beyond its end), and its derivative.
   [[nodiscard]] Sample width(double z) const;
 
-  // Point i of n on the curve, n a multiple of 4: equal angles of x = cos^(2/p), y = sin^(2/p) (Barr 1981), which crowd where the curve
-  // bends. Exact mirrors in both axes.
+  // Point i of n on the curve, n a multiple of 4: equal angles in x = cos^(2/p), y = sin^(2/p) (Barr 1981), which are dense where the
+  // curve bends. The points are exact mirrors in both axes.
   [[nodiscard]] glm::dvec2 point(int i, int n) const;
   // The largest distance between the curve, scaled to semi-axes a, b, and the chords of its n points.
   [[nodiscard]] double chord_error(int n, double a, double b) const;
@@ -49,15 +48,16 @@ class Superellipse {
     for (int k = 2; k <= halves_; k += 2) { result *= x; }
     return result;
   }
-  // 1 - z^p without cancellation.
+  // 1 - z^p, computed without cancellation.
   [[nodiscard]] double rest(double z) const {
     return p_ == 2.0 ? (1.0 - z) * (1.0 + z) : p_ == 1.0 ? 1.0 - z : -std::expm1(p_ * std::log(z));
   }
 
   double p_;
-  // 1 / p in halves, where it is so few of them that products are as exact as std::pow; else 0.
+  // 2 / p, if that is an integer of at most 6, for which products are as exact as std::pow; otherwise 0.
   int halves_ = 2.0 / p_ <= 6.0 && 2.0 / p_ == std::floor(2.0 / p_) ? static_cast<int>(2.0 / p_) : 0;
-  double flat_ = p_ >= 64.0 ? std::exp2(-64.0 / p_) : 0.0;  // of nearly straight sides: ratios below have a power that is lost beside 1
+  // For nearly straight sides: ratios below this have a power that is lost in rounding beside 1.
+  double flat_ = p_ >= 64.0 ? std::exp2(-64.0 / p_) : 0.0;
 };
 
 }  // namespace raycast

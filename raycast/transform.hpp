@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Where an object stands in the world: an affine map, and whether the object is turned inside out.
+// The placement of an object in the world: an affine map, and whether the object is turned inside out.
 //
-// A room is a solid turned inside out: the air is where the solid was. Its spans are the complement, so a line from within is free until
-// it meets the wall, and everything outside the room counts as solid. Its normals point inwards, its mesh is seen from inside.
+// A room is a solid turned inside out: the air is where the solid was. Its spans are the complement, so a line from inside is free until
+// it meets the wall, and everything outside the room counts as solid. Its normals point inwards, and its mesh is seen from inside.
 //
-// t needs no care: an affine map keeps the parameters of a line, so rays go into object space by mapping origin and direction, and the
-// direction is not normalised. A mirror (negative determinant) is legal: the air side stays the air side.
+// An affine map keeps the parameters of a line, so t needs no conversion: origin and direction are mapped into object space, without
+// normalising the direction. A mirror (negative determinant) is allowed; the air side stays the air side.
 
 #include <cstdint>
 #include <memory>
@@ -35,27 +35,27 @@ struct Placement {
   [[nodiscard]] bool identity() const { return linear == glm::dmat3(1.0) && translation == glm::dvec3(0.0); }
 };
 
-// First `inner`, then `outer`; inside out twice is not inside out.
+// First `inner`, then `outer`; inside out applied twice cancels.
 [[nodiscard]] inline Placement compose(const Placement& outer, const Placement& inner) {
   return {outer.linear * inner.linear, outer.linear * inner.translation + outer.translation, outer.inside != inner.inside};
 }
 
-// Why objects cannot be placed so; nothing when they can. Refused: non-finite or huge entries; a map that flattens space, which is taken
-// to be so when the determinant is below 1e-12 of the product of the columns' lengths.
+// The reason why objects cannot be placed by this map; nothing if they can. Refused: non-finite or huge entries; a map that flattens
+// space, that is, whose determinant is below 1e-12 of the product of its columns' lengths.
 [[nodiscard]] std::optional<std::string> check(const Placement& placement);
 [[nodiscard]] inline std::optional<std::string> check(const Object& object, const Placement& placement) {
   if (placement.inside && !object.solid()) { return "only a solid can be turned inside out: this is a surface without inside"; }
   return check(placement);
 }
 
-// The largest factor by which the map stretches a length, from above and at most 0.2 % too large: trace((L^T L)^512)^(1/512) lies
-// between the largest eigenvalue of L^T L and 3^(1/512) times it.
+// Upper bound of the factor by which the map stretches a length, at most 0.2 % too large: trace((L^T L)^512)^(1/512) lies between the
+// largest eigenvalue of L^T L and 3^(1/512) times it.
 [[nodiscard]] double stretch(const glm::dmat3& linear);
 
-// Is the map a similarity (rotation, mirror, uniform scale), as well as rounding can tell?
+// Is the map a similarity (rotation, mirror, uniform scale), within rounding?
 [[nodiscard]] bool keeps_angles(const glm::dmat3& linear);
 
-// An object in the world. It answers what Object answers, in world coordinates; cheap to copy.
+// An object in the world. It has the methods of Object, in world coordinates; cheap to copy.
 class PlacedObject {
  public:
   // Requires object != nullptr and !check(*object, placement).
@@ -65,10 +65,10 @@ class PlacedObject {
   [[nodiscard]] const Placement& placement() const { return placement_; }
   [[nodiscard]] bool inside() const { return placement_.inside; }
 
-  // Of the finite body; the solid part of a room is everything outside it and has no bounds.
+  // Bounds of the finite body; the solid part of a room is everything outside it and unbounded.
   [[nodiscard]] const Box& bounds() const { return bounds_; }
 
-  // Traits. convex() is that of the body: a convex room is the inside of a convex body.
+  // Traits. convex() refers to the body: a convex room is the inside of a convex body.
   [[nodiscard]] bool convex() const { return object_->convex(); }
   [[nodiscard]] bool flat() const { return object_->flat(); }
   [[nodiscard]] bool exact() const { return object_->exact(); }
@@ -86,25 +86,25 @@ class PlacedObject {
     object_->spans_of_segment(to_object(segment), out);
   }
 
-  // Of the body, without the part of a room that is outside it.
+  // For the body, without the solid part around a room.
   [[nodiscard]] bool passes_once(const Segment& line) const { return object_->passes_once(to_object(line)); }
 
   [[nodiscard]] std::uint32_t sheet_of(std::uint32_t face) const { return object_->sheet_of(face); }
   [[nodiscard]] Crossing crossing(const Segment& line, std::uint32_t face) const { return object_->crossing(to_object(line), face); }
-  // -1: the line enters the solid, that around a room too.
+  // -1: the line enters the solid (for a room, the solid around it).
   [[nodiscard]] int winding(const Segment& line, std::uint32_t face) const {
     const int w = object_->winding(to_object(line), face);
     return placement_.inside ? -w : w;
   }
 
-  // The corners of a single planar polygon in the world, counter-clockwise seen from the air; empty for everything else.
+  // The corners of a single planar polygon in world coordinates, counter-clockwise seen from the air; empty for all other objects.
   [[nodiscard]] std::vector<glm::dvec3> outline() const;
 
-  // The tolerance is a length in the world.
+  // `tolerance`: a length in world coordinates.
   void approximate(double tolerance, brep::Builder& out) const;
 
-  // On the sheet always. The nearest point when the map keeps angles; otherwise the image of the
-  // point that is nearest in object space, which is at most the map's condition number times as far away as the nearest one.
+  // Always a point on the sheet. It is the nearest one if the map keeps angles; otherwise it is the image of the nearest point
+  // in object space, whose distance is at most the map's condition number times the least distance.
   [[nodiscard]] SurfacePoint project(std::uint32_t sheet, const glm::dvec3& p) const;
   [[nodiscard]] glm::dvec3 vertex(std::uint32_t sheet, const glm::dvec3& p) const;
 

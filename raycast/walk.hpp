@@ -1,22 +1,21 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The walk under all searches of trees: top down, depth first, with a stack of what is put off; the heap is not touched. A search says in
-// two functions what it does at an inner node and at a leaf, and so is ten lines: any hit and first hit, along a line or around a point,
-// for one ray or for sixteen, through the binary trees of bvh.hpp and the eight-wide one of compiled.hpp.
+// The traversal under all searches of trees: top down, depth first, with a stack of postponed subtrees, without heap memory. A search
+// defines in two functions what happens at an inner node and at a leaf, so each search is about ten lines: any hit and first hit, along a
+// line or around a point, for one ray or sixteen, through the binary trees of bvh.hpp and the eight-wide tree of compiled.hpp.
 //
 //   walk(tree, root, wanted, leaf, inner) -> bool
 //
-//   root                   an Open: `child`, a node of the tree (compiled.hpp: or a leaf), and what this search knows of it: where the ray
-//                          enters, which lanes are alive
-//   wanted(at) -> bool     asked when a subtree's turn comes: does it matter still? May narrow `at`. everything: always.
-//   leaf(at) -> bool       true ends the walk, which returns true; without, it returns false in the end
+//   root                   an Open: `child`, a node of the tree (compiled.hpp: or a leaf), and the search's own data about it, such as the
+//                          entry parameter of the ray, or the lanes that are alive
+//   wanted(at) -> bool     called when it is a subtree's turn: does it still matter? May narrow `at`. everything: always true
+//   leaf(at) -> bool       true ends the walk, which then returns true; otherwise the walk returns false at the end
 //   inner(at, put_off) -> bool
-//                          pushes those children that matter on `put_off`; the last is looked at first. true: goes on with `at` at once,
-//                          which has become one of the children
+//                          pushes the children that matter on `put_off`; the last one is visited first. true: continue at once with `at`,
+//                          which has been set to one of the children
 //
-// The function itself is in kernels/walk.inc, because it is compiled for every instruction set; portable::walk is the one for code that is
-// written in no vectors.
+// The function itself is in kernels/walk.inc, because it is compiled for every instruction set; code without vectors uses portable::walk.
 
 #include <cstddef>
 #include <type_traits>
@@ -25,11 +24,11 @@
 
 namespace raycast {
 
-// Walking down a path leaves all children but one of each of its nodes behind.
+// Upper bound: on the way down, each node leaves behind all its children except one.
 template <class Tree>
 inline constexpr std::size_t walk_stack_size = (Tree::fan_out - 1) * tree_depth_limit + 1;
 
-// What a walk has put off.
+// The postponed subtrees of a walk.
 template <class Tree, class Open>
 class PutOff {
   static_assert(std::is_trivially_copyable_v<Open> && std::is_trivially_default_constructible_v<Open>);
@@ -42,7 +41,7 @@ class PutOff {
   void push(const Open& open) { entries_[size_++] = open; }
   const Open& pop() { return entries_[--size_]; }  // valid until the next push
 
-  // Sorts the entry in among those above `bottom`: the one of least `at` comes next.
+  // Inserts the entry among those above `bottom`, sorted so that the one with the least `at` comes next.
   void push_sorted(std::size_t bottom, const Open& open) {
     std::size_t place = size_++;
     for (; place > bottom && entries_[place - 1].at < open.at; --place) { entries_[place] = entries_[place - 1]; }

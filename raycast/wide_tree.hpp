@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The tree of compiled.hpp: the binary one of bvh_builder.hpp, collapsed into nodes of up to eight children by the cheapest of all ways to
-// do it (after Wald, Benthin, Boulos 2008, with the optimal collapse by dynamic programming of Ylitie, Karras, Laine 2017). A leaf holds up
-// to eight shapes of one kind, which are tested side by side: one costs as much as eight.
+// Builds the tree of compiled.hpp: the binary tree of bvh_builder.hpp, collapsed into nodes of up to eight children in the cheapest
+// possible way (after Wald, Benthin, Boulos 2008, with the optimal collapse by dynamic programming of Ylitie, Karras, Laine 2017). A leaf
+// holds up to eight shapes of one kind, which are tested together: one costs as much as eight.
 
 #include <algorithm>
 #include <array>
@@ -23,7 +23,7 @@ namespace raycast {
 
 namespace detail {
 
-// Boxes in vectors of four numbers: the tree of a mesh is built while its user waits.
+// Boxes as vectors of four numbers, for speed: the tree of a mesh is built while its user waits.
 struct WidePolicy {
   using Real = float;
   using V = portable::F;
@@ -39,7 +39,7 @@ struct WidePolicy {
    public:
     template <class References>
     explicit Grid(const References& references) {
-      Bounds centres;  // doubled
+      Bounds centres;  // twice the centres
       for (const auto& reference : references) {
         const V c = reference.box.lo + reference.box.hi;
         centres.extend({c, c});
@@ -61,7 +61,7 @@ struct WidePolicy {
 
   [[nodiscard]] static float cost(std::uint32_t count) { return static_cast<float>((count + 7) / 8); }
   template <class Iterator>
-  [[nodiscard]] Iterator divide(Iterator begin, Iterator end) const {  // by kind
+  [[nodiscard]] Iterator divide(Iterator begin, Iterator end) const {  // divides by kind
     const Kind kind = items[begin->item].kind;
     return std::partition(begin, end, [&](const auto& reference) { return items[reference.item].kind == kind; });
   }
@@ -70,13 +70,13 @@ struct WidePolicy {
 
 }  // namespace detail
 
-// Emit(kind, items) -> index of the first among its kind, called once for every leaf, in the order of the tree.
+// Emit(kind, items) -> index of the first of them among its kind; called once for every leaf, in the order of the tree.
 template <class Emit>
 class WideTreeBuilder {
  public:
   WideTreeBuilder(std::vector<Item>& items, Emit emit) : items_(items), emit_(std::move(emit)) {}
 
-  // The leaves alone, each with its items, for scenes that need no tree.
+  // Makes only leaves, each with its items, for scenes that need no tree.
   void leaves(std::vector<std::uint32_t>& out) {
     std::stable_sort(items_.begin(), items_.end(), [](const Item& a, const Item& b) { return a.kind < b.kind; });
     for (std::size_t i = 0; i < items_.size();) {
@@ -110,12 +110,12 @@ class WideTreeBuilder {
     std::uint32_t first, count;
   };
 
-  // least[i][k]: the least expected cost of the subtree of binary node i when it becomes k + 1 children, or fewer, of one wide node; it
-  // k = 0 is a node of its own. left[i][k]: how many of them come from its left child; 0: k are as good.
+  // least[i][k]: the least expected cost of the subtree of binary node i if it becomes at most k + 1 children of a wide node; k = 0: a
+  // wide node of its own. left[i][k]: how many of these come from its left child; 0: k children are as good.
   struct Merger {
     std::array<float, 8> least;
     std::array<std::uint8_t, 8> left;
-    std::uint8_t left7 = 0;  // of eight children, as a node of its own
+    std::uint8_t left7 = 0;  // of eight children, if it is a wide node of its own
   };
   void merge(std::vector<Merger>& mergers) const {
     mergers.resize(binary_.size());
@@ -143,7 +143,7 @@ class WideTreeBuilder {
       }
     }
   }
-  static constexpr float leaf_cost = 1.5f;  // of a block of shapes, in tests of eight boxes
+  static constexpr float leaf_cost = 1.5f;  // of a block of shapes, relative to a test of eight boxes
 
   void gather(const std::vector<Merger>& mergers, std::uint32_t at, std::uint32_t k, std::array<std::uint32_t, 8>& child,
               std::size_t& count) const {
@@ -172,13 +172,13 @@ class WideTreeBuilder {
       std::array<std::uint32_t, 8> child{open.binary};
       std::size_t count = 0;
       if (binary_[open.binary].count > 0) {
-        count = 1;  // a tree of one leaf
+        count = 1;  // a tree with a single leaf
       } else {
         const std::uint32_t left = mergers[open.binary].left7;
         gather(mergers, binary_[open.binary].first, left - 1, child, count);
         gather(mergers, binary_[open.binary].first + 1, 7 - left, child, count);
       }
-      // Largest first: any-hit searches look there first.
+      // Largest first, because any-hit searches visit these first.
       for (std::size_t i = 1; i < count; ++i) {
         for (std::size_t j = i; j > 0 && binary_[child[j - 1]].box.half_area() < binary_[child[j]].box.half_area(); --j) {
           std::swap(child[j - 1], child[j]);

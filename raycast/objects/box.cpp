@@ -49,7 +49,7 @@ HALFLIGHT_INLINE void BoxObject::compile(Compiler& compiler) const {
 }
 
 HALFLIGHT_INLINE void BoxObject::approximate(double, brep::Builder& out) const {
-  std::uint32_t v[8] = {};  // bit k of the index: upper end along axis k
+  std::uint32_t v[8] = {};  // bit k of the index: at the upper end along axis k
   for (unsigned i = 0; i < 8; ++i) {
     v[i] = out.vertex({i & 1u ? box_.hi.x : box_.lo.x, i & 2u ? box_.hi.y : box_.lo.y, i & 4u ? box_.hi.z : box_.lo.z});
   }
@@ -75,7 +75,7 @@ HALFLIGHT_INLINE bool BoxObject::clip(std::uint32_t lower, double lo, double hi,
   const bool forward = direction > 0.0;
   const Crossing in{forward ? to_lo : to_hi, forward ? lower : lower + 1};
   const Crossing out{forward ? to_hi : to_lo, forward ? lower + 1 : lower};
-  // A denormal direction makes these infinite, or 0/denormal = 0 on the plane itself: never NaN.
+  // For a denormal direction these are infinite, or 0/denormal = 0 on the plane itself, but never NaN.
   if (in.t > span.in.t) { span.in = in; }
   if (out.t < span.out.t) { span.out = out; }
   return span.in.t <= span.out.t;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The axis-aligned box lo..hi (the shape, not the bounds of box.hpp); six sheets x0 x1 y0 y1 z0 z1.
+// The axis-aligned box lo..hi (the shape; box.hpp has the bounds). Six sheets: x0 x1 y0 y1 z0 z1.
 //
-// Intersection by slabs: each crossing is one rounded difference divided once, so t is exact to 2u relative, and a line that leaves the
-// box from a point of one of its faces has its exit within 2u of that point or behind it.
+// Intersection by slabs. Each crossing is a rounded difference divided once, so t is exact to 2u relative. For a line that leaves the box
+// from a point of one of its faces, the exit is within 2u of that point or behind it.
 
 #include <cstdint>
 #include <string_view>
@@ -21,7 +21,7 @@ namespace raycast {
 
 class BoxObject final : public Object {
  public:
-  // Refused: non-finite or huge coordinates; an edge that is not positive or vanishes beside the coordinates.
+  // Refuses non-finite or huge coordinates, and an edge that is not positive or is negligible beside the coordinates.
   static Made<BoxObject> make(const glm::dvec3& lo, const glm::dvec3& hi);
 
   [[nodiscard]] Box bounds() const override { return box_; }
@@ -44,7 +44,7 @@ class BoxObject final : public Object {
  private:
   explicit BoxObject(const Box& box) : box_(box) {}
 
-  // A line parallel to the slab is inside it when its origin is, the bounding planes included.
+  // A line parallel to the slab is inside if its origin is; the bounding planes count as inside.
   static bool clip(std::uint32_t lower, double lo, double hi, double origin, double direction, Span& span);
 
   Box box_;

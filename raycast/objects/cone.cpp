@@ -73,7 +73,7 @@ HALFLIGHT_INLINE SurfacePoint Cone::project(std::uint32_t sheet, const glm::dvec
   const double z = glm::dot(f, w);
   if (sheet == 1) { return {p - z * w, -w}; }
   if (sheet == 2) { return {p + (height_ - z) * w, w}; }
-  // In the half-plane through the axis and p, the generator runs from (radius, 0) along (slope, 1).
+  // In the half-plane through the axis and p, the side is the line from (radius, 0) in the direction (slope, 1).
   const double x = glm::length(f - z * w);
   const double foot = (slope_ * (x - radius_) + z) / (1.0 + slope_ * slope_);
   const glm::dvec3 radial = frame_.radial(f);
@@ -87,7 +87,7 @@ HALFLIGHT_INLINE void Cone::approximate(double tolerance, brep::Builder& out) co
   const int n = circle_points(tolerance / largest);
   const double width = (radius_ + top_radius_) * std::sin(std::numbers::pi / n);
   const int m = static_cast<int>(std::clamp(std::round(std::hypot(height_, radius_ - top_radius_) / width), 1.0, 64.0));
-  std::vector<std::uint32_t> ring;  // row by row, counter-clockwise about the axis; one vertex for an apex
+  std::vector<std::uint32_t> ring;  // row by row, counter-clockwise about the axis; an apex is one vertex
   for (int row = 0; row <= m; ++row) {
     const double r = row == m ? top_radius_ : radius_ + (top_radius_ - radius_) * row / m;
     const glm::dvec3 middle = base_ + (height_ * row / m) * frame_.w;
@@ -125,7 +125,7 @@ HALFLIGHT_INLINE Cone::Cone(const glm::dvec3& base, const glm::dvec3& axis, doub
 
 HALFLIGHT_INLINE bool Cone::side(const glm::dvec3& f, const glm::dvec3& d, double rho, double mu, double length, Span& span) {
   const double fl = glm::length(f), dl = glm::length(d);
-  if (dl <= eps_parallel * length) {  // parallel to the axis, see cylinder.hpp
+  if (dl <= eps_parallel * length) {  // counts as parallel to the axis, see cylinder.hpp
     if (mu == 0.0) { return fl < rho; }
     (mu > 0.0 ? span.in.t : span.out.t) = (fl - rho) / mu;
     return true;

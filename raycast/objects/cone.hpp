@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The solid cone or frustum from a base point along an axis vector whose length is the height; the radius goes linearly from that of the
-// base to that of the top, which is 0 for a pointed cone. Sheets side, bottom and, unless pointed, top.
+// A solid cone or frustum. The axis vector starts at the base point; its length is the height. The radius changes linearly from base to
+// top, where it is 0 for a pointed cone. Sheets: side, bottom and, unless pointed, top.
 //
-// Intersection: from the point of the line nearest to the middle of the axis, with f, d the parts of origin and direction across the
-// axis, rho the radius at the origin's height and mu its change along d, the side is met where |f + s d| = rho + s mu:
+// Intersection: the origin is moved to the point of the line nearest to the middle of the axis. Let f, d be the components of origin and
+// direction perpendicular to the axis, rho the radius at the origin's height and mu its change along d. The line meets the side where
+// |f + s d| = rho + s mu:
 //      A = d^2 - mu^2,  B = f.d - rho mu,  C = f^2 - rho^2,
 //      B^2 - A C = (|rho d - mu f| - |f x d|) (|rho d - mu f| + |f x d|),
-// whose factors lose nothing to cancellation (mu = 0 gives the cylinder's r |d| - |f x d|). |f + s d| - rho - s mu is convex in s, so the
-// solid of one nappe is one interval: between the roots for A > 0, beyond one of them for A <= 0. The slab between the caps, which holds
-// no part of the other nappe, is cut with it: no gap can open at the rim. With L the larger of height and radii, the crossings are known to
-// 32 u (D + L) across the surface, and hit or miss is decided rightly when the line passes the surface by more.
+// This product has no cancellation (mu = 0 gives the cylinder's r |d| - |f x d|). |f + s d| - rho - s mu is convex in s, so the line's
+// part in the solid of one nappe is one interval: between the roots for A > 0, beyond one of them for A <= 0. It is intersected with the
+// slab between the caps, which contains no part of the other nappe, so there is no gap at the rim. With L the largest of height and
+// radii, crossings are known to 32 u (D + L) perpendicular to the surface, and hit or miss is decided correctly if the line passes the
+// surface at a larger distance.
 
 #include <algorithm>
 #include <cstdint>
@@ -30,8 +32,8 @@ namespace raycast {
 
 class Cone final : public Object {
  public:
-  // Refused: non-finite or huge coordinates; a height or base radius that is not positive, or a top radius that is negative, or one of
-  // them that vanishes beside the coordinates.
+  // Refuses non-finite or huge coordinates; a height or base radius that is not positive; a negative top radius; and any of these that is
+  // negligible beside the coordinates.
   static Made<Cone> make(const glm::dvec3& base, const glm::dvec3& axis, double base_radius, double top_radius = 0.0);
 
   [[nodiscard]] bool convex() const override { return true; }
@@ -50,11 +52,11 @@ class Cone final : public Object {
     compiler.cone(base_, frame_.into(largest, height_), radius_ / largest, (top_radius_ - radius_) / largest);
   }
 
-  // The side goes on beyond the caps up to the apex. The normal at the apex itself points along the axis.
+  // The side is extended beyond the caps up to the apex. The normal at the apex points along the axis.
   [[nodiscard]] SurfacePoint project(std::uint32_t sheet, const glm::dvec3& p) const override;
 
-  // n columns, a multiple of 4 between 8 and 1024, so that the chord error of the larger circle is within the tolerance; between 1 and 64
-  // rows that make the quadrilaterals of the side nearly square (triangles at the apex); each cap is one n-gon.
+  // n columns, a multiple of 4 between 8 and 1024, so that the chord error of the larger circle is within the tolerance; 1 to 64 rows, so
+  // that the quadrilaterals of the side are nearly square (triangles at the apex). Each cap is one n-gon.
   void approximate(double tolerance, brep::Builder& out) const override;
 
  private:
@@ -62,13 +64,14 @@ class Cone final : public Object {
 
   [[nodiscard]] bool pointed() const { return top_radius_ == 0.0; }
 
-  // Where |f + s d| <= rho + s mu; false: nowhere. f and d are across the axis, `length` is that of the whole direction.
+  // The interval with |f + s d| <= rho + s mu; false if it is empty. f and d are perpendicular to the axis, `length` is that of
+  // the full direction.
   static bool side(const glm::dvec3& f, const glm::dvec3& d, double rho, double mu, double length, Span& span);
 
   glm::dvec3 base_{0.0};
   AxisFrame frame_;
   double height_ = 0.0, radius_ = 0.0, top_radius_ = 0.0;
-  double slope_ = 0.0;  // change of the radius along the axis
+  double slope_ = 0.0;  // change of the radius per unit of length along the axis
 };
 
 }  // namespace raycast

@@ -54,9 +54,10 @@ HALFLIGHT_INLINE void Csg::spans(const Segment& line, Spans& out) const {
 
 HALFLIGHT_INLINE void Csg::approximate(double tolerance, brep::Builder& out) const {
   if (flat() || tolerance >= 0.98 * tolerance_) {
-    return append(polygons_, out);  // a placement knows its stretch to 0.2 %
+    return append(polygons_, out);  // not compared exactly: a placement knows its stretch to 0.2 %
   }
-  // What can be done with coarse chords can be done with fine ones, except for features that fall below the grid, or too many faces.
+  // If coarse chords give a boundary, fine ones do as well, unless features fall below the grid or there are too many faces; then the
+  // tolerance is doubled.
   for (; tolerance < 0.98 * tolerance_; tolerance *= 2) {
     const CsgBoundaryResult finer = csg_boundary(*tree_, region_, tolerance);
     if (finer.boundary && finer.boundary->brep.face_count() > 0) { return detail::append(finer.boundary->brep, out); }
@@ -89,7 +90,7 @@ HALFLIGHT_INLINE std::string Csg::evaluate() {
   if (region_.whole.empty()) { return "nothing is left of the solid"; }
   tolerance_ = tol_chord * region_.whole.diameter();
   CsgBoundaryResult result = csg_boundary(*tree_, region_, tolerance_);
-  // What is thinner than the chords are inexact may get lost between them, or be nothing else.
+  // Parts that are thinner than the chord error may get lost, or may be artefacts of it.
   for (int finer = 0; finer < 2 && curved && result.boundary && !holds_solid(result.boundary->brep); ++finer) {
     CsgBoundaryResult next = csg_boundary(*tree_, region_, 0.25 * tolerance_);
     if (!next.boundary) { break; }
@@ -106,7 +107,7 @@ HALFLIGHT_INLINE std::string Csg::evaluate() {
   if (!mesh) { return "the faces of the result are too thin: " + mesh.refusal; }
   mesh_ = std::move(mesh.object);
   if (std::string film = find_film(result.boundary->near); !film.empty()) { return film; }
-  // Off the sheets by more than a placement rounds: known to the grid only.
+  // If vertices are off their sheets by more than a placement rounds, they are known only to the resolution of the grid.
   const Box box = mesh_->bounds();
   slack_ = result.boundary->off > eps_vertex * box.magnitude() ? result.boundary->off : mesh_->slack();
   return {};
@@ -129,7 +130,7 @@ HALFLIGHT_INLINE std::string Csg::find_film(double near) const {
       centre += polygons_.position(v) / static_cast<double>(polygons_.corners(f).size());
     }
     const std::uint32_t sheet = polygons_.sheet(f);
-    const Segment line{centre, -tree_->project(sheet, centre).normal};  // t is a length
+    const Segment line{centre, -tree_->project(sheet, centre).normal};  // t is a length because the direction is a unit vector
     Spans spans;
     tree_->spans(line, spans);
     if (std::none_of(spans.begin(), spans.end(), [&](const Span& s) { return std::abs(s.in.t) <= near; })) {

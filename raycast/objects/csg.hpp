@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Union, intersection and difference of solids as one object. Its sheets are those of the leaves, counted through; so every leaf keeps its
-// materials, and the surface of a window that was cut out belongs to what cut it.
+// Union, intersection and difference of solids as one object. Its sheets are those of the leaves, numbered consecutively, so every leaf
+// keeps its materials, and the walls of a window belong to the solid that was subtracted.
 //
-// Leaves that are all polyhedral: the exact boundary is evaluated once, by brep/csg, and rays meet its faces. With a curved leaf rays meet
-// the true surfaces, by merged spans (csg_tree.hpp), and the mesh stands on the exact combination of the leaves' approximations, its
-// vertices put back onto the true surfaces; whatever refinement adds is projected there like that of any other object.
+// If all leaves are polyhedral, the exact boundary is computed once by brep/csg, and rays meet its faces. If a leaf is curved, rays meet
+// the true surfaces by merged spans (csg_tree.hpp). The mesh is then made from the exact combination of the leaves' approximations, with
+// its vertices projected back onto the true surfaces; later refinement projects new vertices like those of any other object.
 
 #include <cstdint>
 #include <memory>
@@ -32,11 +32,11 @@ namespace raycast {
 
 class Csg final : public Object {
  public:
-  // Refused, with a sentence: what CsgTree::make refuses; what brep/csg refuses; a tree that leaves nothing.
+  // Refuses, with a sentence: what CsgTree::make refuses, what brep/csg refuses, and a tree that leaves nothing.
   static Made<Csg> make(const CsgNode& root);
 
   [[nodiscard]] const CsgTree& tree() const { return *tree_; }
-  // Of the first approximation: its chords are off the true surface by no more.
+  // The chord tolerance of the first approximation: its faces are off the true surface by at most this.
   [[nodiscard]] double chord_tolerance() const { return tolerance_; }
 
   [[nodiscard]] Box bounds() const override { return mesh_ ? mesh_->bounds() : region_.whole; }
@@ -60,7 +60,7 @@ class Csg final : public Object {
   }
   [[nodiscard]] int winding(const Segment& line, std::uint32_t face) const override { return mesh_->winding(line, face); }
 
-  // Faces are convex where they lie on flat sheets.
+  // The faces are convex if they lie on flat sheets.
   void approximate(double tolerance, brep::Builder& out) const override;
 
  private:
@@ -72,16 +72,17 @@ class Csg final : public Object {
 
   std::string evaluate();
 
-  // Is there a face with something of the true solid behind it?
+  // Is there a face with part of the true solid behind it?
   [[nodiscard]] bool holds_solid(const CsgBRep& brep) const;
 
-  // Faces of different solids that nearly coincide, but not on the grid, leave films between them that are no part of the true solid: the
-  // merged spans do not know them. In front of each face must be the surface of the solid.
+  // If faces of different solids nearly coincide, but not on the grid, the mesh has films between them that are no part of the true solid
+  // and that the merged spans remove. So every face must have the solid's true surface in front of it. Returns a sentence about the first
+  // face that has not.
   [[nodiscard]] std::string find_film(double near) const;
 
   std::shared_ptr<const CsgTree> tree_;
-  brep::Builder polygons_;            // the boundary with chords of 1 %
-  std::shared_ptr<const Mesh> mesh_;  // the same, when all leaves are polyhedral
+  brep::Builder polygons_;            // the boundary with a chord tolerance of 1 %
+  std::shared_ptr<const Mesh> mesh_;  // the same, if all leaves are polyhedral; else null
   CsgRegion region_;
   double tolerance_ = 0.0, slack_ = 0.0;
 };

@@ -47,7 +47,7 @@ namespace raycast {
 
 namespace detail {
 
-// The rotation in a placement that keeps angles and does not mirror: what its first column and the plane of the first two say.
+// The rotation in a placement that is a similarity (times -1 if it mirrors); nullopt for any other placement.
 HALFLIGHT_INLINE std::optional<glm::dmat3> rotation_of(const glm::dmat3& m) {
   const glm::dmat3 square = glm::transpose(m) * m;
   for (int i = 0; i < 3; ++i) {
@@ -62,13 +62,13 @@ class CsgEvaluation {
  public:
   using Solid = brep::csg::Solid<std::uint32_t>;
 
-  // `most_faces`: of curved leaves in all.
+  // `most_faces`: limit for the faces of all curved leaves together.
   CsgEvaluation(const CsgPlan& plan, double most_faces)
       : most_faces_(most_faces), plan_(plan), tree_(plan.tree), chords_(tree_.leaves().size(), 0.0) {}
 
   CsgBoundaryResult run() {
     CsgBoundary result;
-    if (!attempt(result.brep)) {  // what was finished in a frame of its own may not bear to be snapped again: all on one grid
+    if (!attempt(result.brep)) {  // a result finished in a frame of its own may be invalid after it is snapped again: then all on one grid
       nested_ = false;
       if (!too_many_) { refusal_.clear(); }
       if (too_many_ || !attempt(result.brep)) { return {std::nullopt, std::move(refusal_), too_many_}; }
@@ -92,14 +92,14 @@ class CsgEvaluation {
     return refusal_.empty() && finish(whole, out);
   }
 
-  // A solid on a grid that is turned against the tree's coordinates.
+  // A solid on a grid that may be rotated relative to the tree's coordinates.
   struct Exact {
     Solid solid;
     glm::dmat3 frame{1.0};
     double near = 0.0;  // four cells of the grid
   };
 
-  // The frame of a node: that of the first leaf with flat sheets, so that faces which coincide there lie on the grid together.
+  // The frame of a node is that of its first leaf with flat sheets, so that coincident faces lie on the grid together.
   [[nodiscard]] glm::dmat3 frame_of(std::uint32_t index) const {
     const CsgTree::Node& node = tree_.nodes()[index];
     for (const std::uint32_t part : node.parts) {
@@ -117,8 +117,8 @@ class CsgEvaluation {
     return difference < tol_frame;
   }
 
-  // Parts on the node's own grid are leaves and inner nodes of the same frame; inner nodes of another frame are evaluated in theirs,
-  // finished, and snapped anew.
+  // Leaves, and inner nodes of the same frame, are evaluated on the node's own grid. Inner nodes of another frame are evaluated and
+  // finished in theirs, and then snapped to this grid.
   Exact evaluate(std::uint32_t index) {
     Exact result{{}, frame_of(index), 0.0};
     std::vector<Operand> operands;
@@ -153,7 +153,7 @@ class CsgEvaluation {
     std::string name;
   };
 
-  // Of a part of the node `whole`, in the order in which combine() takes them.
+  // Collects the operands of a part of the node `whole`, in the order in which combine() takes them.
   void collect(std::uint32_t whole, std::uint32_t index, const glm::dmat3& frame, std::vector<Operand>& out) {
     const CsgTree::Node& node = tree_.nodes()[index];
     if (!refusal_.empty()) { return; }
@@ -188,7 +188,7 @@ class CsgEvaluation {
     const double tolerance = plan_.tolerances[index], coarse = tol_coarse_chord * leaf.solid.bounds().diameter();
     leaf.solid.approximate(std::max(tolerance, coarse), builder);
     if (!leaf.solid.flat()) {
-      // The number of faces is inverse to the tolerance.
+      // The number of faces is inversely proportional to the tolerance.
       if (tolerance < coarse && take(builder.face_count() * coarse / tolerance, out.name)) {
         builder = brep::Builder();
         leaf.solid.approximate(tolerance, builder);
@@ -215,7 +215,7 @@ class CsgEvaluation {
     if (!close(fans(builder))) { return; }
     for (const brep::FaceId f : brep::faces(out.mesh)) { out.mesh.data(f).sheet += leaf.first_sheet; }
   }
-  // May there be so many more faces?
+  // Counts so many more faces; false, with a refusal, if they exceed the limit.
   bool take(double faces, const std::string& name) {
     if (!(static_cast<double>(faces_) + faces > most_faces_)) { return true; }
     too_many_ = true;
@@ -227,8 +227,8 @@ class CsgEvaluation {
     const glm::dvec3 lo = glm::max(a.lo, b.lo), hi = glm::min(a.hi, b.hi);
     return lo.x <= hi.x && lo.y <= hi.y && lo.z <= hi.z;
   }
-  // Convex faces of more than four corners as triangles: turned, they do not stay plane on the grid. Where they do, brep/csg unites them
-  // again.
+  // Divides convex faces of more than four corners into triangles, because after a rotation they are not planar on the grid. If they are,
+  // brep/csg merges them again.
   static brep::Builder fans(const brep::Builder& polygons) {
     brep::Builder result;
     for (std::uint32_t v = 0; v < polygons.vertex_count(); ++v) { result.vertex(polygons.position(v)); }
@@ -245,7 +245,7 @@ class CsgEvaluation {
     }
     return result;
   }
-  // Is the node a leaf of the given tree that is cut down first?
+  // Is the node a leaf of the given tree that the plan intersects with a box first?
   [[nodiscard]] bool is_cut(std::uint32_t index) const {
     return index < plan_.given_nodes && !tree_.nodes()[index].parts.empty() && tree_.nodes()[index].parts[0] >= plan_.given_nodes;
   }
@@ -261,7 +261,7 @@ class CsgEvaluation {
     return a;
   }
 
-  // Two at a time, so that no solid takes part in more than log n operations.
+  // Combines two at a time, so that no solid takes part in more than log n operations.
   template <class Operation>
   Solid reduce(std::vector<Solid> parts, Operation&& operation) {
     while (parts.size() > 1) {
@@ -291,7 +291,7 @@ class CsgEvaluation {
     return apply([](const Solid& a, const Solid& b) { return brep::csg::subtract(a, b); }, parts[0], away);
   }
 
-  // From the exact solid to convex faces on the true sheets, in the tree's coordinates.
+  // Makes convex faces on the true sheets, in the tree's coordinates, from the exact solid.
   bool finish(const Exact& exact, CsgBRep& out) {
     out = brep::csg::to_brep<CsgBRep>(brep::csg::close_slits(exact.solid));
     for (const brep::VertexId v : brep::vertices(out)) { out.data(v).position = exact.frame * out.data(v).position; }
@@ -320,7 +320,7 @@ class CsgEvaluation {
   double near_ = 0.0;
   std::size_t faces_ = 0;
   bool too_many_ = false;
-  std::vector<double> chords_;  // of each leaf
+  std::vector<double> chords_;  // by leaf
   bool nested_ = true;
   std::string refusal_;
 };
@@ -329,12 +329,12 @@ class CsgEvaluation {
 
 HALFLIGHT_INLINE CsgBoundaryResult csg_boundary(const CsgTree& tree, const CsgRegion& region, double tolerance) {
   const bool flat = std::all_of(tree.leaves().begin(), tree.leaves().end(), [](const CsgTree::Leaf& leaf) { return leaf.solid.flat(); });
-  constexpr double most_faces = 0x1p17;  // some 400 bytes each
+  constexpr double most_faces = 0x1p17;  // about 400 bytes each
   if (flat) {
     const CsgPlan plan{tree, std::vector<double>(tree.leaves().size(), tolerance), {}, tree.nodes().size(), false, {}};
     return detail::CsgEvaluation(plan, most_faces).run();
   }
-  // Small parts are as fine as they are small while their faces are few; many of them take part in the coarseness of the whole.
+  // Small parts are approximated as finely as their size asks while there are few faces; if there are many, all become coarser together.
   const double few = std::min(most_faces, 0x1p14 * std::max(1.0, 0.01 * region.whole.diameter() / tolerance));
   for (double relax = 1.0;; relax *= 4.0) {
     const CsgPlan plan = csg_plan(tree, region, tolerance, relax);

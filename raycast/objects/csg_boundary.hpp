@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The boundary of a CSG tree as polygons: every leaf is approximated, brep/csg cuts and glues the approximations exactly, faces that are
-// not convex (a wall with windows) are cut by diagonals, and the vertices are put back from the grid onto the true sheets.
+// The boundary of a CSG tree as polygons. Every leaf is approximated; brep/csg intersects and joins the approximations exactly; faces
+// that are not convex (a wall with windows) are divided by diagonals; vertices are moved from the grid back onto the true sheets.
 //
-// Each face carries the sheet that it lies on, numbered as the tree numbers them. How vertices are put back: csg_place.hpp.
+// Each face has the number of the sheet on which it lies, as in the tree. csg_place.hpp says how vertices are moved back.
 
 #include <optional>
 #include <string>
@@ -16,20 +16,20 @@
 namespace raycast {
 
 struct CsgBoundary {
-  CsgBRep brep;       // without faces when nothing is left
-  double off = 0.0;   // how far its vertices are off the sheets of their faces, at most
-  double near = 0.0;  // four cells of the coarsest grid: what is closer may have become one
+  CsgBRep brep;       // has no faces if nothing is left
+  double off = 0.0;   // largest distance of a vertex from the sheets of its faces
+  double near = 0.0;  // four cells of the coarsest grid: closer points may have been merged
   double chord = 0.0;
 };
 struct CsgBoundaryResult {
   std::optional<CsgBoundary> boundary;
   std::string refusal;
-  bool too_many_faces = false;  // why it was refused
+  bool too_many_faces = false;  // the reason for the refusal
 };
 
-// The boundary of the tree with chords within `tolerance` of curved sheets, and finer where small parts meet (csg_plan.hpp); no faces when
-// nothing is left. `region`: csg_region(tree). Refused, with a sentence: what
-// make_solid of brep/csg refuses in a leaf (it crosses itself once it is snapped to the grid), faces too thin for the grid.
+// Returns the boundary of the tree with chords within `tolerance` of curved sheets, and finer where small parts meet (csg_plan.hpp);
+// without faces if nothing is left. `region`: csg_region(tree). Refuses, with a sentence: a leaf that make_solid of brep/csg refuses (it
+// intersects itself after snapping to the grid), and faces too thin for the grid.
 [[nodiscard]] CsgBoundaryResult csg_boundary(const CsgTree& tree, const CsgRegion& region, double tolerance);
 
 }  // namespace raycast

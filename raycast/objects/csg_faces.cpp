@@ -51,11 +51,11 @@ HALFLIGHT_INLINE void take_away_slivers(CsgBRep& brep) {
     }
     if (length < 0.0) { continue; }
     const brep::FaceId g = brep::unchecked::join_faces(brep, longest);
-    for (bool again = true; again;) {  // of further common edges a spur is left
+    for (bool again = true; again;) {  // further common edges leave a spur
       again = false;
       for (const brep::HalfedgeId h : brep::halfedges_of(brep, g)) {
         if (brep.next(h) != brep::twin(h) || brep.next(brep::twin(h)) == h) { continue; }
-        brep::unchecked::join_vertices(brep, h);  // the end goes into the origin
+        brep::unchecked::join_vertices(brep, h);  // the target is merged into the origin
         again = true;
         break;
       }

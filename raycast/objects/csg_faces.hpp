@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Makes the faces of a CSG tree's boundary convex, and takes away those that are thinner than the coordinates are exact.
+// Makes the faces of a CSG tree's boundary convex, and removes those that are thinner than the precision of the coordinates.
 
 #include <string>
 
@@ -10,15 +10,16 @@
 
 namespace raycast::detail {
 
-// A face without area has no normal and no inside. It goes into the neighbour at its longest edge; nothing moves by more than it is thin.
+// Removes faces without area, which have no normal and no inside: each is joined with its neighbour at its longest edge. No surface moves
+// by more than the thickness of the face.
 void take_away_slivers(CsgBRep& brep);
 
-// Cuts all faces by diagonals until they are convex. `planar`: refused, with a sentence, is a face that is not simple. Else faces need not
-// be quite planar: where no diagonal is found they fall into triangles.
+// Divides all faces by diagonals until they are convex. With `planar`, refuses (with a sentence) a face that is not simple. Otherwise
+// faces need not be quite planar, and one for which no diagonal is found is divided into triangles.
 [[nodiscard]] std::string cut_into_convex_parts(CsgBRep& brep, const CsgTree& tree, bool planar);
 
-// Where a solid touches itself, several edges may join the same two vertices, which no list of polygons can say. All but one get a vertex
-// in their middle.
+// Where a solid touches itself, several edges may join the same two vertices, which a list of polygons cannot represent. All but one of
+// them get a vertex in their middle.
 void tell_edges_apart(CsgBRep& brep);
 
 }  // namespace raycast::detail

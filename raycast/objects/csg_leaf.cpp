@@ -98,7 +98,7 @@ HALFLIGHT_INLINE void CsgRefinement::bisect(brep::FaceId f, std::vector<brep::Fa
       continue;
     }
     const glm::dvec3 middle = 0.5 * (brep_.data(brep_.vertex(h)).position + brep_.data(brep_.target(h)).position);
-    const brep::HalfedgeId rest = brep::unchecked::split_edge(brep_, h);  // from the new vertex on, along f
+    const brep::HalfedgeId rest = brep::unchecked::split_edge(brep_, h);  // the half-edge of f that starts at the new vertex
     brep_.data(brep_.vertex(rest)).position = onto(brep_.data(f).sheet, brep_.data(g).sheet, middle);
     for (const brep::HalfedgeId at : {rest, brep::twin(brep_.prev(rest))}) {
       look.push_back(brep_.face(at));

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The approximation of one leaf of a CSG tree: coarse as a whole, and finer at the places where smaller parts of the tree meet it.
+// The approximation of one leaf of a CSG tree: coarse as a whole, finer where smaller parts of the tree meet it.
 //
-// Where it is too coarse the mesh is refined by bisecting triangles at their longest edges, both sides at once (Rivara 1984), so it stays
-// closed without T-vertices and its angles do not decay. New vertices are put onto the true surface.
+// Where it is too coarse, the mesh is refined by bisection of triangles at their longest edges, on both sides at once (Rivara 1984), so
+// it remains closed without T-vertices and its angles are bounded. New vertices are projected onto the true surface.
 
 #include <cstddef>
 #include <cstdint>
@@ -32,7 +32,7 @@ struct CsgFace {
 };
 using CsgBRep = brep::BRep<CsgVertex, brep::NoData, CsgFace>;
 
-// A box in which faces may be off the true surface by no more than `tolerance`.
+// A box in which faces must be within `tolerance` of the true surface.
 struct CsgPlace {
   Box box;
   double tolerance;
@@ -40,22 +40,22 @@ struct CsgPlace {
 
 namespace detail {
 
-// The faces, behind what is there already.
+// Appends the faces to those in `out`.
 void append(const CsgBRep& brep, brep::Builder& out);
 
-// How far the face is off its sheet, at the middles of its edges and at its own.
+// The distance of the face from its sheet, at the midpoints of its edges and at its centre.
 double chord_error(const PlacedObject& solid, const CsgBRep& brep, brep::FaceId f);
 
 class CsgRefinement {
  public:
-  // Goes on until no place is too coarse, or there are more than `most` faces.
+  // Refines until no place is too coarse, or until there are more than `most` faces.
   CsgRefinement(const PlacedObject& solid, const std::vector<CsgPlace>& places, CsgBRep& brep, std::size_t most);
   [[nodiscard]] bool changed() const { return changed_; }
 
  private:
   [[nodiscard]] bool is_coarse(brep::FaceId f) const;
 
-  // Longer edges come first; of equal ones that of the higher number, so that a way to ever longer edges ends.
+  // Is edge a longer than b? Of equal edges the one with the higher number counts as longer, so a path to ever longer edges ends.
   [[nodiscard]] bool longer(brep::HalfedgeId a, brep::HalfedgeId b) const {
     const double x = length(a), y = length(b);
     return x != y ? x > y : brep::edge(a).index > brep::edge(b).index;
@@ -66,9 +66,9 @@ class CsgRefinement {
   }
   [[nodiscard]] brep::HalfedgeId longest(brep::FaceId f) const;
 
-  // One step towards a finer face f; faces that were cut are added to `look`. A plane cap only gets a vertex at its rim.
+  // One bisection towards a finer face f; faces that were divided are added to `look`. A plane cap only gets a new vertex on its rim.
   void bisect(brep::FaceId f, std::vector<brep::FaceId>& look);
-  // A quadrilateral along its shorter diagonal.
+  // Divides a quadrilateral along its shorter diagonal.
   void cut(brep::FaceId f, std::vector<brep::FaceId>& look);
   [[nodiscard]] std::size_t corners(brep::FaceId f) const { return brep::positions(brep_, f).size(); }
 

@@ -35,7 +35,7 @@ HALFLIGHT_INLINE glm::dvec3 towards(const glm::dvec3& p, const std::vector<Surfa
     for (int i = 0; i < count; ++i) { n -= glm::dot(n, axis[i]) * axis[i]; }
     const double length = glm::length(n);
     if (!(length > tol_plane_angle)) {
-      continue;  // nearly parallel to what is there: its position along them is not known
+      continue;  // nearly parallel to the planes before: the common point is poorly determined along them
     }
     axis[count] = n / length;
     way += (glm::dot(plane.normal, plane.position - p - way) / length) * axis[count];
@@ -50,7 +50,7 @@ HALFLIGHT_INLINE void CsgPlacement::put_back(CsgBRep& brep, double near) const {
   slide(brep, moved);
   collapse(brep, moved, near);
   if (!take_back(brep, moved)) {
-    brep = before;  // a vertex that took in another may not have a place on the chords: without such
+    brep = before;  // a vertex merged with another may have no valid position on the chords: repeat without merging
     moved = move(brep, near);
     take_back(brep, moved);
   }
@@ -136,7 +136,7 @@ HALFLIGHT_INLINE void CsgPlacement::slide(CsgBRep& brep, const Moved& moved) con
         ++count;
       }
       if (sheets.size() > 1 && count != 2) {
-        continue;  // curves meet here
+        continue;  // two or more curves meet here
       }
       const glm::dvec3 p = onto(sheets, 0.5 * brep.data(v).position + 0.5 / count * sum);
       if (glm::length(p - moved.chord[v.index]) <= moved.slides[v.index]) { brep.data(v).position = p; }
@@ -146,7 +146,7 @@ HALFLIGHT_INLINE void CsgPlacement::slide(CsgBRep& brep, const Moved& moved) con
 }
 
 HALFLIGHT_INLINE void CsgPlacement::collapse(CsgBRep& brep, const Moved& moved, double near) const {
-  for (bool again = true; again;) {  // every round takes at least one vertex away
+  for (bool again = true; again;) {  // every round removes at least one vertex
     again = false;
     std::vector<brep::FaceId> turned;
     for (const brep::FaceId f : brep::faces(brep)) {
@@ -201,7 +201,8 @@ HALFLIGHT_INLINE bool CsgPlacement::may_shrink(const CsgBRep& brep, brep::Halfed
   const brep::HalfedgeId sides[2] = {h, brep::twin(h)};
   if (sheets && from.size() > 1 && brep.data(brep.face(sides[0])).sheet == brep.data(brep.face(sides[1])).sheet) { return false; }
   const auto triangle = [&](brep::HalfedgeId x) { return brep.next(brep.next(brep.next(x))) == x; };
-  std::size_t across = 0, common = 0;  // corners that both triangles at h have across of it; neighbours of both ends
+  // Number of triangles at h (each has one corner opposite to it); number of common neighbours of both ends.
+  std::size_t across = 0, common = 0;
   for (const brep::HalfedgeId side : sides) {
     if (!triangle(side)) { continue; }
     ++across;

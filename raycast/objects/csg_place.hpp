@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Puts the vertices of a CSG tree's boundary back from the grid, and from the chords of the approximations, onto the true sheets.
+// Moves the vertices of a CSG tree's boundary from the grid, and from the chords of the approximations, back onto the true sheets.
 //
-// A vertex of three planes goes to their common point, which restores the coordinates that the user wrote; where chords of a curved sheet
-// meet another one the vertex moves to the curve in which the two sheets themselves meet. That may turn over a sliver: chords cross each
-// other not quite where the surfaces do, and two vertices that lie closer together than that change places. Such vertices slide along their
-// curve or surface until nothing is turned over, or one of them goes into the other. What neither mends stays on the chords.
+// A vertex of three planes moves to their common point, which restores the user's coordinates. A vertex between the chords of a curved
+// sheet and another sheet moves to the curve in which the two sheets intersect. This may turn over a sliver: chords intersect at slightly
+// different points than the surfaces, and two vertices closer together than this difference may swap places. Such vertices slide along
+// their curve or surface until no face is turned over, or one of them is merged into the other. If neither helps, the vertices stay on
+// the chords.
 
 #include <algorithm>
 #include <cstdint>
@@ -27,28 +28,28 @@ namespace raycast {
 
 namespace detail {
 
-// Moves p towards all planes at once: the shortest way to their common points; those beyond the third independent one are left out.
+// Moves p the shortest way to the common points of all planes; those after the third independent one are ignored.
 glm::dvec3 towards(const glm::dvec3& p, const std::vector<SurfacePoint>& planes);
 
 class CsgPlacement {
  public:
-  // `chords`: of each leaf of the tree, how far the faces of its approximation are off its sheets at most.
+  // `chords`: by leaf of the tree, the largest distance of the faces of its approximation from its sheets.
   CsgPlacement(const CsgTree& tree, const std::vector<double>& chords) : tree_(tree), chords_(chords) {}
 
-  // Faces must be convex and lie on the chords. Each stays simple and looks the way that its sheet looks.
-  // `near`: a vertex of flat sheets is moved no farther, because it is off them only by the grid.
+  // Faces must be convex and lie on the chords. Each remains simple and keeps the orientation of its sheet. `near`: a vertex of
+  // flat sheets moves no farther than this, because only the grid has moved it off them.
   void put_back(CsgBRep& brep, double near) const;
 
  private:
   struct Moved {
-    std::vector<glm::dvec3> chord;  // of each vertex: where it was
-    std::vector<double> slides;     // how far from there it may slide; 0: not at all
+    std::vector<glm::dvec3> chord;  // by vertex: its position before the move
+    std::vector<double> slides;     // by vertex: how far from there it may slide; 0: not at all
   };
 
   Moved move(CsgBRep& brep, double near) const;
 
-  // Puts vertices of faces that are not sound back on the chords: one, if that mends the face, else all of it. Are all faces sound then?
-  // Every round takes at least one vertex back, so this ends.
+  // Moves vertices of invalid faces back to the chords: one vertex if that makes the face valid, else all of its vertices. Returns
+  // whether all faces are valid then. Every round moves at least one vertex back, so the loop ends.
   bool take_back(CsgBRep& brep, const Moved& moved) const;
 
   template <class Id>
@@ -57,31 +58,30 @@ class CsgPlacement {
     list.erase(std::unique(list.begin(), list.end()), list.end());
   }
 
-  // Chords cross each other where the true surfaces do not quite: put back, the ends of a sliver may change places and turn it over. Such
-  // vertices slide on their surface or curve to between their neighbours.
+  // Vertices of faces that the move has turned over slide on their surface or curve to a place between their neighbours.
   void slide(CsgBRep& brep, const Moved& moved) const;
 
-  // Where a face is turned over still, one of its edges is as short as the chords are inexact: it shrinks to a point.
+  // If a face is still turned over, an edge of it as short as the chord error shrinks to a point.
   void collapse(CsgBRep& brep, const Moved& moved, double near) const;
 
-  // Vertices that are a cell of the grid apart, or less, are one point.
+  // Merges vertices whose edge is no longer than a cell of the grid.
   void merge_points(CsgBRep& brep, double near) const;
 
-  // May the vertex where h starts move into the one where it ends? Not if that changed the topology, left a sheet, or turned a face over.
-  // `sheets`: it may not leave a sheet, nor keep faces that are not sound as they are.
+  // May the origin of h move to its target? Not if this would change the topology, take a vertex off a sheet, or turn a face over. With
+  // `sheets` = false it may leave a sheet, and faces that are invalid already may remain so.
   [[nodiscard]] bool may_shrink(const CsgBRep& brep, brep::HalfedgeId h, bool sheets = true) const;
 
   static void shrink(CsgBRep& brep, brep::HalfedgeId h);
 
-  // Of the smallest angle at which two of the sheets meet, no less than an eighth: where they graze each other, a small error of the chords
-  // moves their common curve far.
+  // The sine of the smallest angle at which two of the sheets meet, at least an eighth. If sheets meet at a small angle, a small chord
+  // error moves their common curve far.
   [[nodiscard]] double sine(const std::vector<std::uint32_t>& sheets, const glm::dvec3& p) const;
 
   [[nodiscard]] static std::vector<std::uint32_t> sheets_of(const CsgBRep& brep, brep::VertexId v);
 
   [[nodiscard]] glm::dvec3 onto(const std::vector<std::uint32_t>& sheets, glm::dvec3 p) const;
 
-  // Does the face look to the side that its sheet looks to, with a boundary that does not meet itself?
+  // Is the face oriented as its sheet, with a boundary that does not touch itself?
   [[nodiscard]] bool is_sound(const CsgBRep& brep, brep::FaceId f) const {
     return is_sound(brep::Polygon(brep::positions(brep, f)), brep.data(f).sheet);
   }

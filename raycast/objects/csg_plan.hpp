@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// How finely the leaves of a CSG tree are approximated, and where; and which of them are cut down first.
+// Decides how finely the leaves of a CSG tree are approximated, and where, and which of them are intersected with a box first.
 //
-// The chord tolerance that is asked for is meant for a part as large as the solid. A smaller leaf gets a smaller one, by powers of four, so
-// that leaves of like size keep equal chords and coincide where their surfaces do. Around a small leaf, the others are as fine as it is. A
-// leaf that is far larger than the solid is coarse, except for the surroundings of the solid; it is cut off there on a grid of its own, for
-// the common grid must resolve the solid. So the effort follows the solid, not the size of what it was cut from.
+// The requested chord tolerance applies to a part as large as the whole solid. A smaller leaf gets a smaller one, in powers of four, so
+// that leaves of similar size have equal chords and coincide where their surfaces do. Around a small leaf, the others are as fine as it
+// is. A leaf far larger than the solid is coarse except near the solid; there it is cut out on a grid of its own, because the common grid
+// must resolve the solid. So the effort depends on the size of the solid, not on the size of its operands.
 
 #include <algorithm>
 #include <cmath>
@@ -24,11 +24,11 @@
 namespace raycast {
 
 struct CsgPlan {
-  CsgTree tree;                    // its first leaves and all their sheets are those of the given one
-  std::vector<double> tolerances;  // of each leaf: of its chords, but at the places
+  CsgTree tree;                    // its first leaves, and all its sheets but the last, are those of the given tree
+  std::vector<double> tolerances;  // chord tolerance by leaf, outside the places
   std::vector<CsgPlace> places;
-  std::size_t given_nodes;  // nodes from here on belong to leaves that are cut down
-  bool finer = false;       // is there a leaf or place with a smaller tolerance than was asked for?
+  std::size_t given_nodes;  // nodes from this index on belong to leaves that are intersected with a box
+  bool finer = false;       // has any leaf or place a smaller tolerance than requested?
   std::string refusal;
 };
 
@@ -36,13 +36,13 @@ namespace detail {
 
 class CsgPlanner {
  public:
-  // `tolerance`: for a part as large as the whole of the region, which is not empty. Smaller parts get a smaller one, times `relax`.
+  // `tolerance`: for a part as large as the region, which must not be empty. Smaller parts get a smaller one, times `relax`.
   CsgPlanner(const CsgTree& tree, const CsgRegion& region, double tolerance, double relax);
 
   [[nodiscard]] CsgPlan run() { return std::move(plan_); }
 
  private:
-  static constexpr double large = 8.0, largest = 0x1p17;  // in sizes of the solid
+  static constexpr double large = 8.0, largest = 0x1p17;  // relative to the size of the solid
 
   [[nodiscard]] double of_size(double size) const {
     const double steps = std::floor(std::log2(size_ / size) / 2 + 0.25);

@@ -27,7 +27,8 @@ namespace detail {
 
 HALFLIGHT_INLINE CsgRegions::CsgRegions(const CsgTree& tree) : tree_(tree) {
   for (const CsgTree::Leaf& leaf : tree.leaves()) {
-    // project() finds the nearest point before the placement, so that a distance is known up to the condition of that.
+    // project() finds the nearest point before the placement, so the true distance is smaller by at most the condition number
+    // of the placement.
     const glm::dmat3& linear = leaf.solid.placement().linear;
     const double condition = stretch(linear) * stretch(glm::inverse(linear));
     shrink_.push_back(leaf.solid.object().nearest() && leaf.solid.sheet_count() <= most_sheets ? 1.0 / condition : 0.0);
@@ -41,7 +42,7 @@ HALFLIGHT_INLINE CsgRegion CsgRegions::run() const {
     const double before = result.whole.diameter();
     result = inside(result.whole);
     if (!(result.whole.diameter() > touching)) {
-      return {{}, std::vector<Box>(tree_.leaves().size())};  // a common point is no solid
+      return {{}, std::vector<Box>(tree_.leaves().size())};  // a common point is not a solid
     }
     if (result.whole.diameter() > 0.8 * before) { break; }
   }
@@ -81,7 +82,7 @@ HALFLIGHT_INLINE CsgRegion CsgRegions::inside(const Box& box) const {
     for (int j = 0; j < cells; ++j) {
       for (int k = 0; k < cells; ++k) {
         Box cell;
-        const auto corner = [&](int a, int b, int c) {  // the last ones are those of the box, however rounding falls
+        const auto corner = [&](int a, int b, int c) {  // the last corners equal those of the box, whatever the rounding
           return glm::dvec3(a == cells ? box.hi.x : box.lo.x + a * step.x, b == cells ? box.hi.y : box.lo.y + b * step.y,
                             c == cells ? box.hi.z : box.lo.z + c * step.z);
         };
@@ -114,7 +115,7 @@ HALFLIGHT_INLINE CsgRegions::Where CsgRegions::of_tree(const std::vector<Where>&
       continue;
     }
     const bool unite = node.operation == CsgOperation::unite;
-    // The value that one part gives to the whole, whatever the others are; and the one that it has when all parts have the other.
+    // `decides` is the value that, in one part, determines the whole; `otherwise` is the value of the whole if no part has it.
     const Where decides = unite ? Where::inside : Where::outside, otherwise = unite ? Where::outside : Where::inside;
     Where value = otherwise;
     for (std::size_t i = 0; i < node.parts.size(); ++i) {

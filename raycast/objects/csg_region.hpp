@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Where a CSG tree can have its solid, and where each leaf can matter: boxes that are found without a mesh.
+// Finds, without a mesh, boxes that contain the solid of a CSG tree, and boxes outside of which a leaf has no influence on it.
 //
-// A cell of space is outside of a leaf, inside of it, or not known to be either. The distance from its middle to the sheets decides: where
-// it is more than the radius of the cell, no surface passes through. From the leaves follow the nodes of the tree (an interval of truth
-// values). A grid of cells is laid over the bounds, those that are outside for certain are dropped, and a grid over the rest comes next; so
-// a lens in which two large spheres just meet is found in some ten rounds. What is dropped is certainly outside, so an empty region is a
-// proof.
+// A cell of space is outside a leaf, inside it, or unknown. If the distance of its centre from all sheets is more than the radius of the
+// cell, no surface passes through it. The values of the leaves give those of the nodes (three-valued logic). A grid of cells is laid over
+// the bounds, cells that are certainly outside are dropped, and the next grid is laid over the rest; a lens in which two large spheres
+// just overlap is found in about ten rounds. Dropped cells are certainly outside, so an empty region proves that the solid is empty.
 
 #include <cstdint>
 #include <vector>
@@ -18,8 +17,8 @@
 namespace raycast {
 
 struct CsgRegion {
-  Box whole;                // no part of the solid lies outside; empty: there is none
-  std::vector<Box> leaves;  // within it no surface of the leaf takes part in the solid outside of this box; empty: nowhere
+  Box whole;                // contains the solid; empty if there is none
+  std::vector<Box> leaves;  // within `whole`, the surface of a leaf takes part in the solid only in its box; empty: nowhere
 };
 
 namespace detail {
@@ -32,21 +31,21 @@ class CsgRegions {
 
   enum class Where : std::uint8_t { outside, inside, unknown };
 
-  // Of all points of the box.
+  // The state of all points of the box.
   [[nodiscard]] Where where(std::uint32_t leaf, const Box& cell) const;
 
  private:
-  static constexpr std::uint32_t most_sheets = 64;  // of a mesh with more it is not worth while to look at all
+  static constexpr std::uint32_t most_sheets = 64;  // for a mesh with more sheets it does not pay to test them all
   static constexpr int cells = 8;
 
-  // One round.
+  // One round: the region within the box.
   [[nodiscard]] CsgRegion inside(const Box& box) const;
 
-  // Parts stand behind their node.
+  // Nodes come before their parts.
   [[nodiscard]] Where of_tree(const std::vector<Where>& of_leaf, std::vector<Where>& of_node) const;
 
   const CsgTree& tree_;
-  std::vector<double> shrink_;  // of each leaf: what of a distance by project() is certain
+  std::vector<double> shrink_;  // by leaf: the factor of a distance given by project() that is a certain lower bound; 0: none
 };
 
 }  // namespace detail

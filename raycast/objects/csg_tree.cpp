@@ -80,7 +80,7 @@ HALFLIGHT_INLINE glm::dvec3 CsgTree::vertex(std::uint32_t sheet, const glm::dvec
 HALFLIGHT_INLINE double CsgTree::work() const {
   double sum = 0.0;
   for (const Leaf& leaf : leaves_) { sum += leaf.solid.object().work(); }
-  return 2.0 * sum;  // as much again to merge them
+  return 2.0 * sum;  // merging takes as long as the leaves themselves
 }
 
 HALFLIGHT_INLINE bool CsgTree::convex() const {

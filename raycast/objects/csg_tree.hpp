@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Union, intersection and difference of solids as a tree, and where a line is inside of it: the spans of all leaves merged (Roth 1982).
+// Union, intersection and difference of solids as a tree, and the spans of a line inside it: the merged spans of all leaves (Roth 1982).
 //
-// The crossings of a line with all leaves are visited in order; every crossing turns its leaf on or off, and where that turns the whole
-// tree the line crosses the surface of the result. Leaves whose surfaces coincide are crossed at parameters that differ by rounding; taken
-// one by one they would leave a film in front of a window that is cut flush with its wall. So crossings of different leaves that follow
-// each other closer than `film`, measured across both surfaces, count as one: layers thinner than `film` are removed, and narrower gaps are
-// filled. Of several sheets that coincide the surface is that of the first leaf that bounds the result there, as in brep/csg.
+// The crossings of a line with all leaves are visited in order. Every crossing toggles its leaf, and if this toggles the whole tree, the
+// line crosses the surface of the result. Leaves whose surfaces coincide are crossed at parameters that differ by rounding; taken one by
+// one they would leave a film in front of a window that is flush with its wall. Therefore crossings of different leaves that are closer
+// together than `film`, measured perpendicular to both surfaces, count as one: layers thinner than `film` are removed, and narrower gaps
+// are filled. Of several coincident sheets the surface is that of the first leaf that bounds the result there, as in brep/csg.
 //
-// The sheets of all leaves have one numbering, in the order of the leaves. Where a subtracted leaf bounds the result, the surface is that
-// of the leaf with its normal reversed.
+// The sheets of all leaves are numbered consecutively, in the order of the leaves. Where a subtracted leaf bounds the result, the surface
+// is that of the leaf with its normal reversed.
 
 #include <cstddef>
 #include <cstdint>
@@ -31,10 +31,10 @@ namespace raycast {
 
 enum class CsgOperation : std::uint8_t { unite, intersect, subtract };  // subtract: the first part without all others
 
-// A tree of solids. A node with a solid is a leaf. The placement acts on the whole node, after those of its parts.
+// A tree of solids. A node with a solid is a leaf. The placement applies to the whole node, after the placements of its parts.
 struct CsgNode {
   std::shared_ptr<const Object> solid;
-  std::string name;  // of a leaf: its sheets are called name.sheet, or name when there is one; may be empty
+  std::string name;  // of a leaf: its sheets are called name.sheet, or just name if there is only one; may be empty
   CsgOperation operation = CsgOperation::unite;
   std::vector<CsgNode> parts;
   Placement placement;
@@ -45,68 +45,69 @@ class CsgTree {
   struct Leaf {
     PlacedObject solid;  // in the coordinates of the tree
     std::uint32_t first_sheet;
-    bool taken_away;  // its complement takes part
+    bool taken_away;  // is its complement used?
   };
   struct Node {
     CsgOperation operation;
     std::vector<std::uint32_t> parts;  // nodes; a leaf has none
     std::uint32_t parent;
-    bool first;          // of its parent's parts
-    std::uint32_t leaf;  // of a leaf
+    bool first;          // is it the first of its parent's parts?
+    std::uint32_t leaf;  // index of the leaf; only of leaf nodes
   };
 
-  // Refused: a node without parts, a leaf that is no solid or is turned inside out, an impossible placement, more than 64 levels.
+  // Refuses: a node without parts, a leaf that is not a solid or is turned inside out, an impossible placement, more than 64 levels.
   static Made<CsgTree> make(const CsgNode& root);
 
-  // How a leaf takes part in a tree that is to be right within a box alone.
-  enum class Share : std::uint8_t { all, within, full, none };  // as it is; cut off at the box; the box is in it; the box is outside of it
+  // How cut() represents a leaf within a box.
+  // Unchanged; intersected with the box; contains the box; disjoint from the box.
+  enum class Share : std::uint8_t { all, within, full, none };
 
-  // The same solid within the box, and nothing outside of it. Sheets keep their numbers; those of the box come last.
+  // A tree with the same solid within the box, and nothing outside. Sheets keep their numbers; those of the box come last.
   [[nodiscard]] CsgTree cut(const std::vector<Share>& shares, const std::shared_ptr<const Object>& box) const;
 
   [[nodiscard]] const std::vector<Leaf>& leaves() const { return leaves_; }
-  [[nodiscard]] const std::vector<Node>& nodes() const { return nodes_; }  // the root first, parts behind their node
-  [[nodiscard]] const Box& bounds() const { return bounds_; }              // empty when the bounds of the leaves leave no room
+  [[nodiscard]] const std::vector<Node>& nodes() const { return nodes_; }  // the root comes first, nodes before their parts
+  [[nodiscard]] const Box& bounds() const { return bounds_; }              // empty if the bounds of the leaves leave no room for the solid
   [[nodiscard]] double film() const { return film_; }                      // a length
 
   [[nodiscard]] std::uint32_t sheet_count() const { return static_cast<std::uint32_t>(leaf_of_sheet_.size()); }
   [[nodiscard]] std::string_view sheet_name(std::uint32_t sheet) const { return names_[sheet]; }
   [[nodiscard]] SurfacePoint project(std::uint32_t sheet, const glm::dvec3& p) const;
   [[nodiscard]] glm::dvec3 vertex(std::uint32_t sheet, const glm::dvec3& p) const;
-  // What convex solids have in common is convex.
+  // True for intersections of convex solids.
   [[nodiscard]] bool convex() const;
   [[nodiscard]] double work() const;  // as Object::work
   [[nodiscard]] std::uint32_t leaf_of(std::uint32_t sheet) const { return leaf_of_sheet_[sheet]; }
   [[nodiscard]] bool flat_sheet(std::uint32_t sheet) const { return leaves_[leaf_of_sheet_[sheet]].solid.flat(); }
 
-  // As Object::spans. Uses no heap while no more than 32 crossings, 8 leaves and 16 nodes take part.
+  // As Object::spans. Allocates nothing on the heap for up to 32 crossings, 8 leaves and 16 nodes.
   void spans(const Segment& line, Spans& out) const;
 
-  // Is the point inside? Of points on a surface it is not said. By the spans of one line through it.
+  // Is the point inside? Undefined for points on a surface. Found by the spans of one line through the point.
   [[nodiscard]] bool contains(const glm::dvec3& p) const;
 
  private:
   static constexpr std::uint32_t none = 0xffffffff;
   struct Event {
-    Crossing at;  // sheet of the leaf
+    Crossing at;  // sheet: of the leaf
     std::uint32_t leaf;
     bool enters;
   };
 
-  // Which leaves, and so which nodes, contain the point of the line that has been reached.
+  // Which leaves, and therefore which nodes, contain the point that has been reached on the line.
   class State {
    public:
     explicit State(const CsgTree& tree);
     [[nodiscard]] bool inside() const { return nodes_[0].inside; }
     void turn(std::uint32_t leaf);
 
-    // The whole differs from `before`: the leaf whose surface is the surface of the whole here. Of parts that coincide it is the first one
-    // that goes the way of its node, and what is taken away comes last.
+    // If the whole differs from `before`: the leaf whose surface is that of the whole here. Of coincident parts it is the first one that
+    // has changed; subtracted parts come last.
     [[nodiscard]] std::uint32_t cause(const State& before) const;
 
    private:
     struct Value {
-      std::uint32_t others;  // parts besides the first that contain the point
+      std::uint32_t others;  // number of parts after the first that contain the point
       bool first, inside;
     };
     const CsgTree* tree_;
@@ -116,7 +117,7 @@ class CsgTree {
 
   CsgTree() = default;
 
-  // Do the events from `first` to before `last` and the last one count as one crossing? Not those of one leaf.
+  // Do the events from `first` up to and including `last` count as one crossing? Not if `last` has the same leaf as one before it.
   [[nodiscard]] bool coincide(const Segment& line, const Event* first, const Event* last) const;
 
   std::string take(const CsgNode& given, const Placement& outer, std::uint32_t parent, bool first, bool taken_away, std::size_t depth);

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The solid cylinder from a base point along an axis vector whose length is the height; sheets side, bottom, top.
+// A solid cylinder. The axis vector starts at the base point; its length is the height. Sheets: side, bottom, top.
 //
-// Intersection: the origin is moved to the point of the line nearest to the middle of the cylinder, then the infinite cylinder
-// (a circle in the plane across the axis, solved like the sphere) and the slab between the caps each give one interval, and the solid is
-// their intersection: no gap can open at the rim. A line whose direction across the axis is below 16 u of its length is taken as
-// parallel: over the height it strays by 16 u of the height, which is within rounding of the coordinates.
+// Intersection: the origin is moved to the point of the line nearest to the middle of the cylinder. The infinite cylinder (a circle in
+// the plane perpendicular to the axis, solved like the sphere) and the slab between the caps give one interval each; the solid is their
+// intersection, so there is no gap at the rim. A line whose direction has a component perpendicular to the axis below 16 u of its length
+// counts as parallel: over the height it deviates by 16 u of the height, which is within the rounding of the coordinates.
 
 #include <cstdint>
 #include <string_view>
@@ -25,7 +25,7 @@ namespace raycast {
 
 class Cylinder final : public Object {
  public:
-  // Refused: non-finite or huge coordinates; a height or radius that is not positive or vanishes beside the coordinates.
+  // Refuses non-finite or huge coordinates, and a height or radius that is not positive or is negligible beside the coordinates.
   static Made<Cylinder> make(const glm::dvec3& base, const glm::dvec3& axis, double radius);
 
   [[nodiscard]] bool convex() const override { return true; }
@@ -44,8 +44,8 @@ class Cylinder final : public Object {
 
   [[nodiscard]] SurfacePoint project(std::uint32_t sheet, const glm::dvec3& p) const override;
 
-  // n columns, a multiple of 4 between 8 and 1024, so that the chord error r (1 - cos(pi/n)) is within the tolerance; m rows between 1
-  // and 64 that make the quadrilaterals of the side nearly square; each cap is one n-gon.
+  // n columns, a multiple of 4 between 8 and 1024, so that the chord error r (1 - cos(pi/n)) is within the tolerance; 1 to 64 rows, so
+  // that the quadrilaterals of the side are nearly square. Each cap is one n-gon.
   void approximate(double tolerance, brep::Builder& out) const override;
 
  private:

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// A flat disk: a surface without inside, seen from the side that its normal points to; the back is black. One sheet.
+// A flat disk: a surface without inside, whose front is the side that its normal points to; its back is black. One sheet.
 //
-// Intersection: from the point of the line nearest to the centre (a line that stays a radius away misses) to the plane, then the
-// distance from the centre. With D the distance of the ray's origin and c the cosine between line and normal, the point where the line
-// passes is known to 16 u (D + r) / c; a line in the disk's own plane does not meet it.
+// Intersection: from the point of the line nearest to the centre (a line that stays a radius away misses) to the plane; then the distance
+// from the centre decides. With D the distance of the ray's origin from the centre and c the cosine between line and normal, the
+// intersection is known to 16 u (D + r) / c. A line in the disk's own plane does not meet it.
 //
-// Approximation: the polygon of n corners that has the disk's area, so a lamp keeps its power: the corners lie outside the rim by a
-// third of the chord error, the middles of the edges inside by two thirds.
+// Approximation: the regular polygon of n corners with the area of the disk, so that a lamp keeps its power. Its corners lie outside the
+// rim by a third of the chord error, the midpoints of its edges inside by two thirds.
 
 #include <cstdint>
 
@@ -26,7 +26,7 @@ namespace raycast {
 
 class Disk final : public Object {
  public:
-  // Refused: non-finite or huge coordinates; a normal of no length; a radius that is not positive or vanishes beside the coordinates.
+  // Refuses non-finite or huge coordinates, a zero normal, and a radius that is not positive or is negligible beside the coordinates.
   static Made<Disk> make(const glm::dvec3& centre, const glm::dvec3& normal, double radius);
 
   [[nodiscard]] bool convex() const override { return true; }
@@ -44,7 +44,7 @@ class Disk final : public Object {
     return {p - glm::dot(p - centre_, frame_.w) * frame_.w, frame_.w};
   }
 
-  // The number of corners is a multiple of 4 between 8 and 1024; its back is a face of brep::no_sheet.
+  // The number of corners is a multiple of 4 between 8 and 1024; the back is a face of brep::no_sheet.
   void approximate(double tolerance, brep::Builder& out) const override;
 
  private:

@@ -2,8 +2,8 @@
 #pragma once
 
 // An object placed in the coordinates of another one: any number of instances, at any depth, share one object. (The objects of a scene
-// share theirs without it: a PlacedObject is an object and a placement.) Everything is asked of the shared object in its own coordinates;
-// project is then the nearest point up to the map's condition number, see transform.hpp.
+// share theirs without it: a PlacedObject is an object and a placement.) Every query is answered by the shared object in its own
+// coordinates; project() is then the nearest point up to the condition number of the map, see transform.hpp.
 
 #include <cstdint>
 #include <memory>
@@ -26,7 +26,7 @@ namespace raycast {
 
 class Instance final : public Object {
  public:
-  // Refused: no object; a placement that `check` refuses; one that turns the object inside out, which is for the outermost placement.
+  // Refuses: no object; a placement that `check` refuses; a placement that turns the object inside out, which only the outermost may do.
   static Made<Instance> make(std::shared_ptr<const Object> object, const Placement& placement) {
     if (!object) { return "an instance needs an object"; }
     if (placement.inside) { return "an instance cannot be turned inside out: turn what is made of it"; }

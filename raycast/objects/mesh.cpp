@@ -90,7 +90,7 @@ HALFLIGHT_INLINE void Mesh::approximate(double, brep::Builder& out) const {
 
 template <class Visit>
 void Mesh::crossings(const Segment& line, double t0, double t1, Visit&& visit) const {
-  // Seen from the middle of the mesh, rounding is relative to its size and not to the distance of the ray's origin.
+  // Seen from the middle of the mesh, rounding is relative to the size of the mesh, not to the distance of the ray's origin.
   double shift = 0.0;
   const Segment near = nearer(line, shift);
   const RayFrame frame(near);
@@ -157,7 +157,7 @@ HALFLIGHT_INLINE void Mesh::clip(const Segment& line, Spans& out) const {
 HALFLIGHT_INLINE double Mesh::crossing_near(const Segment& line, std::uint32_t f) const {
   const double dd = glm::dot(line.direction, line.direction);
   const std::span<const std::uint32_t> face = corners(f);
-  double lowest = infinity, highest = -infinity;  // times dd
+  double lowest = infinity, highest = -infinity;  // multiplied by dd
   for (const std::uint32_t v : face) {
     const double along = glm::dot(positions_[v] - line.origin, line.direction);
     lowest = std::min(lowest, along);
@@ -174,7 +174,7 @@ HALFLIGHT_INLINE double Mesh::crossing_near(const Segment& line, std::uint32_t f
   }
   const double at = t * dd;
   if (!(at >= lowest)) {
-    return lowest / dd;  // NaN as well
+    return lowest / dd;  // also for NaN
   }
   return at <= highest ? t : highest / dd;
 }
@@ -194,7 +194,7 @@ HALFLIGHT_INLINE double Mesh::volume() const {
 HALFLIGHT_INLINE std::string Mesh::take(const std::vector<glm::dvec3>& positions, const std::vector<std::vector<std::uint32_t>>& faces,
                                         double rounding) {
   if (faces.empty()) { return "the mesh has no faces"; }
-  std::vector<std::uint32_t> renamed(positions.size(), brep::no_sheet);  // keeps the order, closes the gaps
+  std::vector<std::uint32_t> renamed(positions.size(), brep::no_sheet);  // keeps the order without gaps
   for (std::size_t f = 0; f < faces.size(); ++f) {
     for (const std::uint32_t v : faces[f]) {
       if (v >= positions.size()) {
@@ -232,7 +232,7 @@ HALFLIGHT_INLINE std::string Mesh::close_borders() {
     for (std::size_t i = 0; i < face.size(); ++i) { edges.push_back({face[i], face[(i + 1) % face.size()]}); }
   }
   std::sort(edges.begin(), edges.end());
-  std::map<std::uint32_t, std::uint32_t> next;  // along the border, which runs against its faces
+  std::map<std::uint32_t, std::uint32_t> next;  // along the border, whose direction is opposite to that of its faces
   for (const auto& [a, b] : edges) {
     if (!std::binary_search(edges.begin(), edges.end(), std::pair(b, a)) && !next.emplace(b, a).second) {
       return "the mesh is not a manifold: two borders meet at the vertex at (" + place(b) + "), or an edge has more than two faces";
@@ -260,7 +260,7 @@ HALFLIGHT_INLINE void Mesh::prepare() {
   triangles_ = true;
   for (std::size_t f = 0; f < planes_.size(); ++f) { triangles_ = triangles_ && first_corner_[f + 1] == 3 * (f + 1); }
   if (planes_.size() > 8) {
-    // Grown by what the line test rounds.
+    // The boxes are enlarged by the rounding of the line test.
     const double margin = eps_projection * (box_.magnitude() + box_.diameter()) + slack_;
     std::vector<Box> boxes(planes_.size());
     for (std::uint32_t f = 0; f < planes_.size(); ++f) {
@@ -269,7 +269,7 @@ HALFLIGHT_INLINE void Mesh::prepare() {
     }
     bvh_ = Bvh(boxes);
   }
-  // Convex: every vertex behind every plane, to tol_convex of the size. Not worth the time for meshes of many faces, which rarely are.
+  // Convex: every vertex is behind every plane, to tol_convex of the size. Not tested for meshes of many faces, which are rarely convex.
   convex_ = solid() && planes_.size() <= 1000;
   for (std::size_t f = 0; f < planes_.size() && convex_; ++f) {
     for (const glm::dvec3& p : positions_) {
@@ -285,7 +285,8 @@ HALFLIGHT_INLINE bool Mesh::embedded() const {
   std::vector<MeshFace> faces;
   for (std::uint32_t f = 0; f < planes_.size(); ++f) { faces.push_back({corners(f), planes_[f].normal}); }
   if (!faces_apart(faces, positions_, bvh_, eps_projection * (box_.magnitude() + box_.diameter()))) { return false; }
-  // The volume is positive, so a surface in one piece has its inside within. Pieces may be nested, and each may be inside out.
+  // The volume is positive, so a connected surface has its inside within. Several connected components may be nested, and each may be
+  // inside out.
   const std::vector<std::uint32_t> piece = connected();
   if (std::all_of(piece.begin(), piece.end(), [](std::uint32_t first) { return first == 0; })) { return true; }
   std::vector<bool> known(piece.size());
@@ -323,7 +324,7 @@ HALFLIGHT_INLINE bool Mesh::alternates_at(std::uint32_t face) const {
     through = through || at.sheet == face;
   });
   std::sort(met.begin(), met.end(), [](const auto& a, const auto& b) { return a.first.t < b.first.t; });
-  for (std::size_t i = 0; i < met.size(); ++i) {  // t is a length
+  for (std::size_t i = 0; i < met.size(); ++i) {  // t is a length because the direction is a unit vector
     if (i > 0 && !(met[i].first.t - met[i - 1].first.t > tol_between * box_.diameter())) { return false; }
     if (met[i].second != (i % 2 == 0 ? -1 : 1)) { return false; }
   }

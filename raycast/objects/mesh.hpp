@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// A polyhedral surface: indexed planar polygons, counter-clockwise seen from the air, each face its own sheet f0 f1 ...
-// A closed mesh is a solid, an open one a surface whose back is black.
+// A polyhedral surface: indexed planar polygons, counter-clockwise seen from the air. Each face is a sheet of its own: f0 f1
+// ... A closed mesh is a solid; an open one is a surface whose back is black.
 //
-// Crossings come from the watertight line test of planar.hpp. Entries and exits are told apart by the sign of the winding number, not
-// by a dot product, and there are equally many of both on every line through a closed mesh. The k-th entry belongs to the k-th exit:
-// in an embedded surface they alternate, and where rounding swaps an exit and the next entry (a line over an edge), two overlapping
-// spans merge and a span of negative length is dropped, so no gap opens. That a closed mesh does not intersect itself is checked for rooms
-// alone, whose faces are given to the fast lanes only then.
-// A convex mesh of up to 32 planes is cut plane by plane instead.
+// The watertight line test of planar.hpp finds the crossings. The sign of the winding number, not a dot product, tells entries from
+// exits, and every line through a closed mesh has equally many of both. The k-th entry belongs to the k-th exit: in a surface that does
+// not intersect itself they alternate, and where rounding swaps an exit and the next entry (a line over an edge), two overlapping spans
+// are merged and a span of negative length is dropped, so there is no gap. Whether a closed mesh intersects itself is checked only for
+// rooms, whose faces go to the single-precision kernels only if it does not. A convex mesh of up to 32 planes is clipped plane by plane
+// instead.
 
 #include <cstddef>
 #include <cstdint>
@@ -38,15 +38,14 @@ namespace raycast {
 
 class Mesh final : public Object {
  public:
-  // Corners of the faces are indices into positions. Positions without a face are left out.
-  // Refused, with the number of the face or vertex (counted from 0): an index out of range, a face that polygon_fault refuses, a surface
-  // that is not a manifold with consistent orientation, a closed mesh that is inside out (its volume is not positive).
-  // `rounding` of the positions: see polygon_fault.
+  // Corners of faces are indices into `positions`; positions without a face are left out. Refuses, with the number of the face or vertex
+  // (from 0): an index out of range, a face that polygon_fault refuses, a surface that is not a manifold with consistent orientation, a
+  // closed mesh that is inside out (its volume is not positive). `rounding` of the positions: see polygon_fault.
   static Made<Mesh> make(const std::vector<glm::dvec3>& positions, const std::vector<std::vector<std::uint32_t>>& faces,
                          double rounding = 0.0);
 
-  // The faces of a BRep whose vertices have a `.position`, in its order; those with a `.sheet` of brep::no_sheet are holes.
-  // Refused as above; the numbers in the sentence count the faces that are no holes.
+  // Takes the faces of a BRep whose vertices have a `.position`, in its order; faces with a `.sheet` of brep::no_sheet are
+  // holes. Refuses as above; the numbers in the sentence count the faces that are not holes.
   template <class Shape>
   requires requires(const Shape& shape, brep::VertexId v) { shape.data(v).position; }
   static Made<Mesh> make(const Shape& shape) {
@@ -79,7 +78,7 @@ class Mesh final : public Object {
     if (few_planes_) { return clip(line, out); }
     spans_between(line, -infinity, infinity, out);
   }
-  // The crossings of a surface without inside stand for themselves; those of a solid are told apart by all that come before them.
+  // The crossings of a surface without inside are independent of each other; those of a solid are told apart by all crossings before them.
   void spans_of_segment(const Segment& segment, Spans& out) const override;
 
   void compile(Compiler& compiler) const override;
@@ -100,11 +99,11 @@ class Mesh final : public Object {
 
  private:
   Mesh() = default;
-  // The spans of the line; of a surface without inside at least those between t0 and t1.
+  // The spans of the line; for a surface without inside, those between t0 and t1 at least.
   void spans_between(const Segment& line, double t0, double t1, Spans& out) const;
-  // The planes of a convex mesh, up to 33: the triangles of one flat side have one.
+  // The planes of a convex mesh, at most 33; the triangles of one flat side share one.
   [[nodiscard]] std::vector<Plane> distinct_planes() const;
-  // A convex solid with one face a plane: the part of the line that is behind all of them. From the middle of the mesh, as above.
+  // For a convex solid with one plane per face: the part of the line behind all planes, computed from the middle of the mesh, as above.
   void clip(const Segment& line, Spans& out) const;
   [[nodiscard]] std::span<const std::uint32_t> corners(std::uint32_t f) const {
     if (triangles_) { return std::span<const std::uint32_t>(corners_).subspan(3 * std::size_t{f}, 3); }
@@ -118,14 +117,15 @@ class Mesh final : public Object {
     shift = nearest_parameter(line, box_.centre());
     return {line.at(shift), line.direction};
   }
-  // Where the line meets the plane of face f; kept within the face's own extent along the line, because the quotient is unbounded when
-  // the face is seen edge-on. A triangle's plane is found from its corners, which are needed anyway: to fetch it would take longer.
+  // The parameter at which the line meets the plane of face f, clamped to the extent of the face along the line, because the quotient is
+  // unbounded for a face seen edge-on. The plane of a triangle is computed from its corners, which are needed anyway; loading it would
+  // take longer.
   [[nodiscard]] double crossing_near(const Segment& line, std::uint32_t f) const;
   [[nodiscard]] double volume() const;
 
   std::string take(const std::vector<glm::dvec3>& positions, const std::vector<std::vector<std::uint32_t>>& faces, double rounding);
 
-  // Finds the border loops, and lets brep::close judge the whole: the mesh must be a manifold.
+  // Finds the border loops, and calls brep::close to check that the mesh is a manifold.
   std::string close_borders();
   [[nodiscard]] std::string place(std::uint32_t v) const {
     const glm::dvec3& p = positions_[v];
@@ -134,11 +134,11 @@ class Mesh final : public Object {
 
   void prepare();
 
-  // Is it certain that the surface of this solid does not meet itself, and that on every line entries and exits alternate?
+  // Is it certain that the surface of this solid does not intersect itself, and that entries and exits alternate on every line?
   [[nodiscard]] bool embedded() const;
-  // The corners that can be reached from each along edges: the least of them.
+  // By corner: the lowest number among the corners that are connected with it by edges.
   [[nodiscard]] std::vector<std::uint32_t> connected() const;
-  // Do entries and exits alternate on a line through the middle of the face, which is one of them?
+  // Do entries and exits alternate on a line through the middle of the face, which must be one of them?
   [[nodiscard]] bool alternates_at(std::uint32_t face) const;
   // Calls visit(crossing, winding) for the faces that the line crosses within [t0, t1].
   template <class Visit>
@@ -152,7 +152,7 @@ class Mesh final : public Object {
   Bvh bvh_;
   Box box_;
   double slack_ = 0.0;
-  bool triangles_ = false;  // nothing but
+  bool triangles_ = false;  // are all faces triangles?
   bool convex_ = false, few_planes_ = false;
 };
 

@@ -2,10 +2,10 @@
 #pragma once
 
 // A planar polygon of any simple shape: a surface without inside. Its corners are counter-clockwise seen from the front; the back is
-// black. Spans have length zero: the parameter where the line passes through.
+// black. Spans have length zero, at the parameter where the line passes through.
 //
-// With D the distance of the ray's origin from the polygon, t |d| is known to 4 u D |d| / |n.d|; the line test of planar.hpp makes
-// polygons that share an edge (equal corner coordinates) watertight. A line in the polygon's own plane does not meet it.
+// With D the distance of the ray's origin from the polygon, t |d| is known to 4 u D |d| / |n.d|. The line test of planar.hpp makes
+// polygons that share an edge (with equal corner coordinates) watertight. A line in the polygon's own plane does not meet it.
 
 #include <cstdint>
 #include <memory>
@@ -31,7 +31,7 @@ namespace raycast {
 
 class Polygon final : public Object {
  public:
-  // Refused, and `rounding`: see polygon_fault.
+  // For refusals and `rounding` see polygon_fault.
   static Made<Polygon> make(std::vector<glm::dvec3> corners, double rounding = 0.0) {
     if (std::optional<std::string> fault = polygon_fault(corners, rounding)) { return "the polygon " + *fault; }
     return std::shared_ptr<const Polygon>(new Polygon(std::move(corners)));

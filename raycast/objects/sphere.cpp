@@ -50,7 +50,7 @@ HALFLIGHT_INLINE SurfacePoint Sphere::project(std::uint32_t, const glm::dvec3& p
 
 HALFLIGHT_INLINE void Sphere::approximate(double tolerance, brep::Builder& out) const {
   const int n = subdivisions(tolerance / radius_);
-  std::map<std::array<int, 3>, std::uint32_t> made;  // by integer position on the cube [0,n]^3: sides share their edges
+  std::map<std::array<int, 3>, std::uint32_t> made;  // by integer position on the cube [0,n]^3, because sides share their edges
   const auto vertex = [&](const std::array<int, 3>& at) {
     const auto [place, fresh] = made.try_emplace(at, 0u);
     if (fresh) { place->second = out.vertex(centre_ + radius_ * direction(at, n)); }

@@ -145,10 +145,10 @@ HALFLIGHT_INLINE glm::dvec3 Superquadric::nearest_to(const glm::dvec3& f, const 
   take_if_nearer(settle(f, 0.0));
   const bool pinched = !around_.convex() || !profile_.convex();
   const double kept = pinched ? 0.1 : 0.0;
-  if (pinched) { take_if_nearer(settle(glm::max(f, least), kept)); }  // out of the middle of a blade, or down its side
+  if (pinched) { take_if_nearer(settle(glm::max(f, least), kept)); }  // leaves the middle of a blade, or goes along its side
   const double small = tol_project * std::max({radii_.x, radii_.y, radii_.z});
   for (int round = 0; round < 32; ++round) {
-    // Along the tangent plane towards the foot of p, and back onto the surface; part of the way while that leads away.
+    // Steps along the tangent plane towards the projection of p, and back onto the surface; shorter while the step increases the distance.
     const glm::dvec3 n = normal(x);
     glm::dvec3 step = (f - x) - glm::dot(f - x, n) * n;
     const auto go = [&] {
@@ -165,7 +165,7 @@ HALFLIGHT_INLINE void Superquadric::approximate(double tolerance, brep::Builder&
   // The farthest point of the unit curve is on an axis or half-way between two.
   const double across = limit_.x * std::max(radii_.x, radii_.y) * std::max(1.0, std::numbers::sqrt2 / around_(1.0, 1.0).value);
   if (ring_ > 0.0) {
-    tolerance = std::min(tolerance, 0.25 * std::min({radii_.x, radii_.y, radii_.z}));  // a mesh that is still a ring
+    tolerance = std::min(tolerance, 0.25 * std::min({radii_.x, radii_.y, radii_.z}));  // the mesh remains a ring
   }
   const int n = around_.points(0.5 * tolerance, limit_.x * radii_.x, limit_.y * radii_.y, 8);
   const int m = profile_.points(0.5 * tolerance, across / limit_.x, radii_.z, 8);
@@ -231,7 +231,7 @@ HALFLIGHT_INLINE void Superquadric::cut_pieces(const glm::dvec3& f, const glm::d
     bool inner, enters;
   };
   InlineVector<Change, 16> changes;
-  bool outside[2] = {true, false};  // of the outer, within the inner surface; at lo
+  bool outside[2] = {true, false};  // is lo outside the outer surface, is it within the inner one?
   const double negligible = eps_norm * (1.0 + ring_) * (1.0 + 1.0 / around_.p() + 1.0 / profile_.p());
   for (std::size_t i = 0; i + 1 < count; ++i) {
     if (!(ends[i] < ends[i + 1])) { continue; }
@@ -239,7 +239,7 @@ HALFLIGHT_INLINE void Superquadric::cut_pieces(const glm::dvec3& f, const glm::d
     const glm::dvec3 rate{line.rate(0, middle), line.rate(1, middle), line.rate(2, middle)};
     for (int inner = 0; inner <= (ring_ > 0.0 ? 1 : 0); ++inner) {
       const double sign = inner ? -1.0 : 1.0;
-      const auto gauge = [&](double s) {  // of the profile, less one: positive outside of the surface
+      const auto gauge = [&](double s) {  // of the profile, minus one: positive outside the surface
         const auto [a, da] = around_.along(line.at(0, s), line.at(1, s), rate.x, rate.y);
         const double w = sign * (a - ring_);
         if (!(w > 0.0)) { return Sample{line.at(2, s) - 1.0, rate.z}; }

@@ -5,16 +5,16 @@
 //
 //      (|x/a|^p + |y/b|^p)^(q/p) + |z/c|^q <= 1,         p = 2 / around, q = 2 / profile,
 //
-// and, with a ring radius k > 1 (in units of a and b), the supertoroid, in which (|x/a|^p + |y/b|^p)^(1/p) - k stands in the place of the
-// root. Exponents near 0 give boxes, 1 ellipsoids, 2 octahedra, more than 2 pinched shapes that shadow themselves. One sheet.
+// and, with a ring radius k > 1 (in units of a and b), the supertoroid, in which (|x/a|^p + |y/b|^p)^(1/p) - k replaces the root.
+// Exponents near 0 give boxes, 1 ellipsoids, 2 octahedra, more than 2 pinched shapes that shadow themselves. One sheet.
 //
-// Intersection, in units of the radii and from the point of the line nearest to the centre, clipped to the bounds. With A the gauge of
-// (x, y) and B(z) the width of the profile (superellipse.hpp), the outer surface is f = A - k - B = 0 and the inner one f = k - A - B = 0.
-// - Superellipsoid with p, q >= 1: its gauge is a norm, hence convex along a line, with two crossings at most: Newton from both sides.
-// - Otherwise the line is cut where it meets x = 0, y = 0 and z = 0. Between these A and B are each convex or concave, and roots.hpp finds
-//   all sign changes of their differences. Crossings are then found by Newton steps on the gauge of the profile.
-// Crossings are known to 32 u (D + size) across the surface, with the cusps of pinched shapes as sharp as the coordinates: a blade or
-// needle that is thinner than their rounding may be missed.
+// Intersection: in units of the radii, from the point of the line nearest to the centre, clipped to the bounds. Let A be the gauge of
+// (x, y) and B(z) the width of the profile (superellipse.hpp); the outer surface is f = A - k - B = 0, the inner one f = k - A - B = 0.
+// - A superellipsoid with p, q >= 1: its gauge is a norm, hence convex along a line with at most two crossings; Newton from both sides.
+// - Otherwise the line is divided where it meets x = 0, y = 0 and z = 0. In between, A and B are each convex or concave, and roots.hpp
+//   finds all sign changes of their differences. The crossings are then found by Newton's method on the gauge of the profile.
+// Crossings are known to 32 u (D + size) perpendicular to the surface, and the cusps of pinched shapes are as sharp as the coordinates
+// are precise: a blade or needle thinner than their rounding may be missed.
 
 #include <cmath>
 #include <cstdint>
@@ -36,10 +36,10 @@ namespace raycast {
 
 class Superquadric final : public Object {
  public:
-  // ring = 0: a superellipsoid; otherwise above 1. Refused: non-finite or huge coordinates; radii that are not positive, vanish beside the
-  // coordinates or differ by more than 1e6; exponents outside 0.001 to 10; another ring. Above 10 both sides of
-  // a blade lie within 1e-8 of its length, as well as project() knows the nearest point, over more than its last eighth: vertices that are
-  // put on one side come to lie on the other, and a mesh that is refined folds without end instead of following the surface.
+  // ring = 0: a superellipsoid; otherwise above 1. Refuses: non-finite or huge coordinates; radii that are not positive, are negligible
+  // beside the coordinates or differ by a factor above 1e6; exponents outside 0.001 to 10; any other ring. Above 10, more than the last
+  // eighth of a blade is thinner than 1e-8 of its length, the precision to which project() knows the nearest point: vertices projected to
+  // one side end up on the other, and mesh refinement folds without end instead of following the surface.
   static Made<Superquadric> make(const glm::dvec3& centre, const glm::dvec3& radii, double profile, double around, double ring = 0.0);
 
   [[nodiscard]] bool convex() const override { return around_.convex() && profile_.convex() && ring_ == 0.0; }
@@ -57,16 +57,16 @@ class Superquadric final : public Object {
     compiler.superquadric(centre_, unit, around_.p(), profile_.p(), ring_);
   }
 
-  // Nearest, to 1e-8 of the size, for points that are nearer than the smallest radius of curvature; otherwise a point whose normal runs
-  // towards p and that is no farther than the one where the way to the centre (of the profile) meets the surface. On an edge the normal
-  // is the mean of both sides.
+  // For points closer than the smallest radius of curvature, the nearest point, to 1e-8 of the size. Otherwise a point whose normal
+  // points towards p and that is no farther than where the line from p to the centre (of the profile) meets the surface. On an edge the
+  // normal is the mean of those of both sides.
   [[nodiscard]] SurfacePoint project(std::uint32_t, const glm::dvec3& p) const override;
-  // In the planes of symmetry in which p lies: edges are curves in these.
+  // Keeps p in the planes of symmetry in which it lies, because edges are curves in these planes.
   [[nodiscard]] glm::dvec3 vertex(std::uint32_t, const glm::dvec3& p) const override;
 
   // A grid of trapezoids whose columns follow the superellipse about the axis and whose rows follow the profile, with triangles at the
-  // poles of a superellipsoid. A chord point lies within the sum of both curves' chord errors of the surface, each scaled by the largest
-  // extent of the other; either gets half of the tolerance. 4 (8 for a profile ring) to 512 points a curve.
+  // poles of a superellipsoid. A point on a chord is within the sum of both curves' chord errors of the surface, each scaled by the
+  // largest extent of the other; each gets half of the tolerance. A curve has 4 (8 for a profile ring) to 512 points.
   void approximate(double tolerance, brep::Builder& out) const override;
 
  private:
@@ -78,18 +78,18 @@ class Superquadric final : public Object {
   Superquadric(const glm::dvec3& centre, const glm::dvec3& radii, double profile, double around, double ring)
       : centre_(centre), radii_(radii), limit_(1.0 + ring, 1.0 + ring, 1.0), around_(2.0 / around), profile_(2.0 / profile), ring_(ring) {}
 
-  // Cuts off what is outside of the planes between which pinched shapes lie. With p < 1, |x| + |y| is at most A(x, y), else the larger of
-  // the two is; with q < 1 the same holds for |A| and |z|. Nothing is cut from other shapes.
+  // Clips the line to the planes that bound pinched shapes: with p < 1, |x| + |y| is at most A(x, y), else the larger of the two is; with
+  // q < 1 the same holds for |A| and |z|. Other shapes are not clipped.
   void clip_pinched(const glm::dvec3& f, const glm::dvec3& e, double& lo, double& hi) const;
 
-  // The norm of the superellipsoid at f + s e, less one.
+  // The norm of the superellipsoid at f + s e, minus one.
   [[nodiscard]] Sample norm(const glm::dvec3& f, const glm::dvec3& e, double s) const;
 
-  // Newton's steps on a convex function from outside never pass its zero; where there is none, they come to where it rises.
+  // From outside, Newton's steps on a convex function never pass its zero; if there is none, they arrive where the function rises.
   void cut_convex(const glm::dvec3& f, const glm::dvec3& e, double lo, double hi, Cut& cuts) const;
 
-  // A line in units of the radii, between two coordinate planes. A coordinate is measured from where the line meets its plane, so that it
-  // is exactly 0 there.
+  // A line in units of the radii, between two coordinate planes. Each coordinate is measured from where the line meets its plane, so that
+  // it is exactly 0 there.
   struct Line {
     glm::dvec3 f, e, zero;
     double lo, hi;
@@ -97,25 +97,27 @@ class Superquadric final : public Object {
     [[nodiscard]] double at(int k, double s) const {
       return crosses(k) ? std::abs(e[k]) * std::abs(s - zero[k]) : std::abs(f[k] + s * e[k]);
     }
-    // Change of |coordinate k| over the piece around `middle`.
+    // Derivative of |coordinate k| on the piece around `middle`.
     [[nodiscard]] double rate(int k, double middle) const { return std::signbit(f[k] + middle * e[k]) ? -e[k] : e[k]; }
   };
 
   void cut_pieces(const glm::dvec3& f, const glm::dvec3& e, double lo, double hi, Cut& cuts) const;
 
-  // Distance from the middle of the tube; 0 up to rounding, so that the edges of a pinched tube are edges.
+  // Signed distance from the middle of the tube; exactly 0 if that is within rounding, so that the edges of a pinched tube are recognized.
   [[nodiscard]] double from_ring(double a) const { return std::abs(a - ring_) <= eps_ring * ring_ ? 0.0 : a - ring_; }
 
-  // The point of the surface on the way from the centre of the profile to f >= 0, in lengths.
+  // The point of the surface on the line from the centre of the profile to f >= 0, in lengths.
   [[nodiscard]] glm::dvec3 onto(const glm::dvec3& f) const;
-  // The gauge of the profile at x >= 0, less one, and its gradient. A coordinate 0 has no part in the gradient: the two sides cancel.
+  // The gauge of the profile at x >= 0, minus one, and its gradient. A coordinate 0 contributes nothing to the gradient, because both
+  // sides cancel.
   [[nodiscard]] std::pair<double, glm::dvec3> level(const glm::dvec3& x) const;
   [[nodiscard]] glm::dvec3 normal(const glm::dvec3& x) const;
-  // The nearest point to f >= 0. From planes of symmetry it is looked for at coordinates of `least`; 0 keeps it in a plane.
+  // The nearest point to f >= 0. The search also starts with coordinates of at least `least`, to leave planes of symmetry; 0
+  // stays in a plane.
   [[nodiscard]] glm::dvec3 nearest_to(const glm::dvec3& f, const glm::dvec3& least) const;
-  // Onto the surface from x >= 0 nearby: by Newton's steps along the normal, because the way to the centre is long where a blade runs
-  // along it, then exactly. A step keeps this share of each coordinate at least: beside a blade steps are too long, and with 0 they end in
-  // its plane, where the side is forgotten.
+  // Projects a point x >= 0 near the surface onto it: first by Newton's steps along the normal, because the line to the centre is long if
+  // a blade runs along it; then exactly, by onto(). A step keeps at least the share `kept` of each coordinate: beside a blade steps are
+  // too long, and with 0 they end in its plane, where it is no longer known on which side they were.
   [[nodiscard]] glm::dvec3 settle(glm::dvec3 x, double kept) const;
 
   glm::dvec3 centre_{0.0}, radii_{0.0}, limit_{1.0};

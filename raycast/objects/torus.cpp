@@ -53,7 +53,7 @@ HALFLIGHT_INLINE void Torus::spans(const Segment& line, Spans& out) const {
   std::array<double, 5> ends;  // lo, the extrema between, hi
   const std::size_t count = tube.extrema(lo, hi, ends);
   const auto t = [&](double s) { return shift + s * (major_ / length); };
-  bool inside = false;  // the clip's ends are outside, up to rounding
+  bool inside = false;  // the ends of the clipped line are outside, up to rounding
   double entry = 0.0, before = lo;
   for (std::size_t i = 1; i < count; ++i) {
     const double at = ends[i];
@@ -85,7 +85,7 @@ HALFLIGHT_INLINE SurfacePoint Torus::project(std::uint32_t, const glm::dvec3& p)
 }
 
 HALFLIGHT_INLINE void Torus::approximate(double tolerance, brep::Builder& out) const {
-  tolerance = std::min(tolerance, 0.25 * minor_);  // a mesh that is still a ring
+  tolerance = std::min(tolerance, 0.25 * minor_);  // the mesh remains a ring
   int n = 8, m = 8;
   for (;;) {
     const double dn = 2 * std::numbers::pi / n, dm = 2 * std::numbers::pi / m;
@@ -136,7 +136,7 @@ HALFLIGHT_INLINE std::size_t Torus::Tube::extrema(double lo, double hi, std::arr
     roots = {radius * std::cos(angle + 2 * std::numbers::pi / 3), radius * std::cos(angle - 2 * std::numbers::pi / 3),
              radius * std::cos(angle)};
     found = 3;
-  } else {  // one (Cardano, the sum without cancellation first)
+  } else {  // one real root (Cardano, with the sum without cancellation first)
     const double half = 0.5 * q, root = std::sqrt(std::max(0.0, half * half + p * p * p / 27));
     const double large = std::cbrt(half >= 0.0 ? -(half + root) : root - half);
     roots[0] = large == 0.0 ? 0.0 : large - p / (3 * large);

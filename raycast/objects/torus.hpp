@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The ring torus: a tube of the minor radius r around a circle of the major radius R > r; one sheet. A concave solid that lights and
+// The ring torus: a tube of the minor radius r around a circle of the major radius R > r. One sheet. A concave solid that illuminates and
 // shadows itself.
 //
-// Intersection: in units of R, from the point of the line nearest to the centre, clipped to the sphere and the slab that hold the torus.
-// There the implicit quartic has no cubic term,
+// Intersection: in units of R, from the point of the line nearest to the centre, clipped to the sphere and the slab that contain the
+// torus. There the implicit quartic has no cubic term,
 //      (s^2 + k)^2 - 4 (a s^2 + 2 b s + c) = 0,      k = |f|^2 + 1 - r^2,  a s^2 + 2 b s + c = squared distance from the axis,
-// so its extrema are the roots of s^3 + (k - 2 a) s - 2 b. Between two of them lies one crossing or none, which the sign of the
-// geometric function sqrt((distance from the axis - 1)^2 + z^2) - r decides, and on it the crossing is found by bracketed Newton steps: the
-// coefficients of the quartic decide no digit of the result. A grazing line is judged by the value at the extremum. Crossings are
-// known to 32 u (D + R) across the surface, and hit or miss is decided rightly when the line passes the surface by more.
+// so its extrema are the roots of s^3 + (k - 2 a) s - 2 b. Between two of them there is at most one crossing: the sign of the geometric
+// function sqrt((distance from the axis - 1)^2 + z^2) - r decides, and bracketed Newton steps on this function find the crossing, so the
+// quartic's coefficients have no influence on its precision. The value at the extremum decides whether a grazing line hits. Crossings are
+// known to 32 u (D + R) perpendicular to the surface, and hit or miss is decided correctly if the line passes the surface at a larger
+// distance.
 
 #include <array>
 #include <cmath>
@@ -32,8 +33,8 @@ namespace raycast {
 
 class Torus final : public Object {
  public:
-  // Refused: non-finite or huge coordinates; an axis without length; a minor radius that is not positive, not below the major one, or
-  // below 1e-4 of it; a torus that vanishes beside its centre's coordinates.
+  // Refuses: non-finite or huge coordinates; a zero axis; a minor radius that is not positive, not below the major one, or below 1e-4 of
+  // it; a torus that is negligible beside its centre's coordinates.
   static Made<Torus> make(const glm::dvec3& centre, const glm::dvec3& axis, double major, double minor);
 
   [[nodiscard]] Box bounds() const override;
@@ -42,7 +43,7 @@ class Torus final : public Object {
 
   [[nodiscard]] double work() const override { return 1.0; }
 
-  // Two spans have three extrema, the middle one outside.
+  // False only if the line has two spans: then there are three extrema, the middle one outside.
   [[nodiscard]] bool passes_once(const Segment& line) const override;
 
   void compile(Compiler& compiler) const override {
@@ -60,12 +61,13 @@ class Torus final : public Object {
       : centre_(centre), frame_(axis), major_(major), minor_(minor) {}
 
   class Tube;
-  // The line from its point at `shift`, nearest to the centre.
+  // The line, from its point at `shift`, which is nearest to the centre.
   [[nodiscard]] Tube along(const Segment& line, double shift, double length) const {
     return Tube(frame_, (line.at(shift) - centre_) / major_, line.direction / length, minor_ / major_);
   }
 
-  // The line f + s e in units of the major radius, e a unit vector across f, and its signed distance from the tube of radius r.
+  // The line f + s e in units of the major radius, e a unit vector perpendicular to f; its value is the signed distance from the tube of
+  // radius r.
   class Tube {
    public:
     Tube(const AxisFrame& frame, const glm::dvec3& f, const glm::dvec3& e, double r)
@@ -74,15 +76,15 @@ class Torus final : public Object {
           r_(r) {}
 
     [[nodiscard]] Sample operator()(double s) const;
-    // The part of the line within the sphere of radius 1 + r and the slab |z| <= r. Both a few u too large.
+    // The part of the line within the sphere of radius 1 + r and the slab |z| <= r; both are too large by a few u.
     [[nodiscard]] bool clip(double& lo, double& hi) const;
     [[nodiscard]] bool one_extremum() const { return !(std::abs(cubic().turn) < 1.0); }
-    // lo, the extrema of the quartic in between in increasing order, hi.
+    // Sets `ends` to lo, the extrema of the quartic in between in increasing order, and hi.
     std::size_t extrema(double lo, double hi, std::array<double, 5>& ends) const;
 
    private:
     struct Cubic {
-      double p, q, turn;  // s^3 + p s + q, with three real roots where |turn| < 1
+      double p, q, turn;  // s^3 + p s + q, with three real roots if |turn| < 1
     };
     [[nodiscard]] Cubic cubic() const;
 
