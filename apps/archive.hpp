@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Values as bytes and back, by one list of fields a type that both directions follow:
+// Converts values to bytes and back. For every type there is one list of fields, which both directions use:
 //
 //     struct Fields {
 //       template <class Archive, class T>
-//       void operator()(Archive& a, T& x) const { a(x.name, x.area); }    // by if constexpr where there are several types
+//       void operator()(Archive& a, T& x) const { a(x.name, x.area); }    // with if constexpr for several types
 //     };
 //
-// Little-endian, without gaps: numbers as they lie in memory, truth values as one byte, texts and lists behind their length (uint64),
-// optionals behind a byte that says whether there is one; an optional choice is one byte, 0 for none.
+// Little-endian, without gaps: numbers as in memory, booleans as one byte, texts and lists preceded by their length (uint64), optionals
+// preceded by a byte that says whether there is a value. An optional enumeration is one byte, 0 for none.
 
 #include <bit>
 #include <cstddef>
@@ -69,7 +69,7 @@ class ArchiveWriter {
   }
 };
 
-// What the bytes have not is left as it is, and sound() is false from then on.
+// If the bytes end too early, the remaining values are left unchanged and sound() is false from then on.
 template <class Fields>
 class ArchiveReader {
  public:
@@ -115,7 +115,7 @@ class ArchiveReader {
     std::uint64_t count = 0;
     read(count);
     list.clear();
-    for (; count > 0 && sound_; --count) { read(list.emplace_back()); }  // an item that is not there ends it
+    for (; count > 0 && sound_; --count) { read(list.emplace_back()); }  // stops when the bytes end
   }
   template <class T>
   void read(std::optional<T>& value) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Numbers as bytes of a file, bytes as text of a page, and a checksum of both.
+// Numbers as bytes of a file, bytes as text of a page, a checksum, and the header of a PLY file.
 
 #include <array>
 #include <bit>
@@ -29,7 +29,7 @@ void put(std::string& out, const glm::vec<n, Number>& vector) {
   for (glm::length_t k = 0; k < n; ++k) { put(out, vector[k]); }
 }
 
-// The bits of a number of `size` bytes that begins there; the caller has looked whether they are there.
+// The bits of the number of `size` bytes at position `at`; the caller must have checked that the bytes exist.
 [[nodiscard]] inline std::uint64_t bits_at(std::string_view bytes, std::size_t at, std::size_t size, bool big_endian = false) {
   std::uint64_t bits = 0;
   for (std::size_t i = 0; i < size; ++i) {
@@ -38,7 +38,7 @@ void put(std::string& out, const glm::vec<n, Number>& vector) {
   return bits;
 }
 
-// RFC 4648.
+// Base64 as in RFC 4648.
 [[nodiscard]] inline std::string base64(std::string_view bytes) {
   static constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::string text;
@@ -53,7 +53,7 @@ void put(std::string& out, const glm::vec<n, Number>& vector) {
   return text;
 }
 
-// FNV-1a of 64 bits (Fowler, Noll and Vo 1991): finds files that were damaged by accident, not by intent.
+// 64-bit FNV-1a (Fowler, Noll and Vo 1991): detects accidental damage of files, not manipulation.
 class Checksum {
  public:
   void add(std::string_view bytes) {
@@ -76,7 +76,7 @@ class Checksum {
   std::uint64_t state_ = 0xcbf29ce484222325ull;
 };
 
-// The header of a PLY file (Turk 1994), binary and little-endian; what follows it are bytes of numbers.
+// The header of a binary, little-endian PLY file (Turk 1994). The numbers of the elements follow it.
 struct PlyElement {
   std::string_view name;
   std::size_t count;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// What a command has found out, as one list that both of its outputs read: the JSON writes every fact under its path, the text names facts
-// in its sentences. A new figure is one row.
+// The results of a command as one list that both outputs use: the JSON writes every fact under its path, the text names facts in its
+// sentences. A new figure is one row.
 //
 //     Facts facts;
 //     facts.add("rays", std::uint64_t{12});
@@ -32,12 +32,13 @@ namespace apps {
 
 class Facts {
  public:
-  // Writes a list; no sentence names one.
+  // Writes a list, which only the JSON contains; no sentence can name it.
   using Writer = std::function<void(JsonWriter&)>;
   using Value = std::variant<std::monostate, double, std::uint64_t, bool, std::string, Writer>;  // monostate: null
 
-  // `path`: the keys from the outermost object to the value; the facts of one object follow each other. `unit`: how text shows a number:
-  // "%" in per cent, "B" as bytes, "1" a count without gaps between its digits, or a printf conversion; by itself a count is grouped.
+  // `path`: the keys from the outermost object to the value; the facts of one object must be adjacent. `unit`: how the text shows a
+  // number: "%" as a percentage, "B" as bytes, "1" as a count without digit grouping, or a printf conversion. Without a unit, the digits
+  // of a count are grouped.
   void add(std::string path, Value value, std::string unit = {}) { rows_.push_back({std::move(path), std::move(value), std::move(unit)}); }
   void add(std::string path, std::unsigned_integral auto count, std::string unit = {}) requires(!std::same_as<decltype(count), bool>) {
     add(std::move(path), Value(std::uint64_t{count}), std::move(unit));
@@ -49,7 +50,7 @@ class Facts {
 
   [[nodiscard]] std::string json() const;
 
-  // The sentence with every {path} replaced by the fact. Nothing when one of them is null or not there.
+  // The sentence with every {path} replaced by its fact; nothing if one of them is null or missing.
   [[nodiscard]] std::optional<std::string> text(std::string_view sentence) const;
 
  private:

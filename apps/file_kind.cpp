@@ -22,7 +22,7 @@ using namespace std::string_view_literals;
 
 constexpr std::string_view blanks = " \t\r\n\v\f";
 
-// Formats that begin with fixed bytes.
+// Formats that begin with certain bytes.
 constexpr std::array<std::pair<std::string_view, const char*>, 20> signatures = {{
     {"\x89PNG"sv, "a picture (PNG)"},
     {"\xff\xd8\xff"sv, "a picture (JPEG)"},
@@ -48,10 +48,10 @@ constexpr std::array<std::pair<std::string_view, const char*>, 20> signatures = 
     {"{"sv, "data (JSON)"},
 }};
 
-// Without the byte order mark with which some programs begin UTF-8.
+// Removes the byte order mark with which some programs begin UTF-8.
 std::string_view without_mark(std::string_view text) { return text.substr(text.starts_with("\xef\xbb\xbf") ? 3 : 0); }
 
-// The words of the first lines that have any; comments are left out.
+// Splits the first lines that are not empty into words, without comments.
 class FirstLines {
  public:
   explicit FirstLines(std::string_view text) : text_(text) {}
@@ -87,26 +87,26 @@ bool begins_script(const std::array<std::string_view, 3>& words) {
   return brep::find_operator(command) != nullptr || (!command.empty() && contains(brep::command_names, command));
 }
 
-// A statement of a scene; in the first line also a word so near to one that its author meant it.
+// Is this the first word of a statement of a scene? For the first line a word close to one is enough, because the author probably meant it.
 bool begins_scene(std::string_view word, bool first) {
   return first ? !nearest(word, scene_file::statements()).empty() : contains(scene_file::statements(), word);
 }
 
-// As long as its header says.
+// Compares the length with the number of triangles in the header.
 bool is_binary_stl(std::string_view bytes) {
   if (bytes.size() < 84) { return false; }
   const std::uint64_t triangles = bits_at(bytes, 80, 4);
   return triangles > 0 && bytes.size() == 84 + 50 * triangles;
 }
 
-// A line that begins with "solid", then one that begins with "facet".
+// Checks for a line that begins with "solid" and one after it that begins with "facet".
 bool begins_stl_text(std::string_view bytes) {
   FirstLines lines(bytes);
   std::array<std::string_view, 3> words;
   return is_stl_text(bytes) && lines.next(words) && lines.next(words) && same_letters(words[0], "facet");
 }
 
-// As far as the first 64 KiB tell.
+// Looks at the first 64 KiB only.
 bool is_text(std::string_view bytes) {
   for (std::size_t at = 0; at < std::min<std::size_t>(bytes.size(), 1U << 16U);) {
     const std::size_t length = utf8_length(bytes, at);
@@ -121,7 +121,7 @@ std::string name_of(FileKind kind, const MeshFormat* format) {
   return kind == FileKind::scene ? "a scene" : kind == FileKind::script ? "a script of Euler operators" : "a file that halflight reads";
 }
 
-// What to do with it instead.
+// What the user should do with the file instead.
 std::string advice(const std::string& path, FileKind found, FileKind wanted) {
   const std::string of_scenes =
       "a scene is text that names materials and objects (examples/scenes/README.md), or a file of another program: " + model_endings();
@@ -148,7 +148,7 @@ std::string advice(const std::string& path, FileKind found, FileKind wanted) {
 bool is_stl_text(std::string_view bytes) {
   FirstLines lines(without_mark(bytes));
   std::array<std::string_view, 3> words;
-  constexpr std::size_t header = 84;  // of a binary file: its number of triangles, which is below 2^24, has a zero byte
+  constexpr std::size_t header = 84;  // of a binary file; the number of triangles in it is below 2^24 and so has a zero byte
   return bytes.substr(0, header).find('\0') == bytes.npos && lines.next(words) && same_letters(words[0], "solid");
 }
 

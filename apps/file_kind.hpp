@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Guesses what a file is when a command was given the wrong one, so that one sentence can name it and say what to do, in place of a
-// parser's errors about text that was not meant for it. It is asked after reading has failed, so that no sound file is refused by a guess.
+// Guesses the kind of a file when a command was given the wrong one. One sentence can then name it and say what to do, instead of a
+// parser's errors about text that was not meant for it. Called after reading has failed, so a guess never refuses a valid file.
 
 #include <optional>
 #include <string>
@@ -16,18 +16,18 @@ enum class FileKind { unknown, empty, scene, script, mesh, stl, light, other };
 
 struct FileGuess {
   FileKind kind = FileKind::unknown;
-  std::string what;                    // "a polygon mesh (PLY)", "a picture (PNG)"; empty when unknown
-  const MeshFormat* format = nullptr;  // of a mesh
+  std::string what;                    // "a polygon mesh (PLY)", "a picture (PNG)"; empty if unknown
+  const MeshFormat* format = nullptr;  // only for a mesh
 };
 
-// By the first bytes and words.
+// Guesses by the first bytes and words.
 [[nodiscard]] FileGuess guess_kind(std::string_view bytes);
 
-// STL as text begins with "solid"; so do many binary files, which have a zero byte soon.
+// A text STL file begins with "solid"; so do many binary ones, but these have a zero byte soon after.
 [[nodiscard]] bool is_stl_text(std::string_view bytes);
 
-// The sentence, when the file is something else than a scene, a mesh of the format that its name says, or a script of Euler operators.
-// `wanted` is what it should have been, `format` the format of a mesh, where it is known.
+// Returns the sentence if the file is neither a scene, nor a mesh of the format that its name says, nor a script of Euler operators.
+// `wanted`: what it should have been; `format`: the format of a mesh, if known.
 [[nodiscard]] std::optional<std::string> wrong_kind(const std::string& path, std::string_view bytes, FileKind wanted,
                                                     const MeshFormat* format = nullptr);
 

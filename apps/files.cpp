@@ -25,16 +25,16 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Destination {
-  std::filesystem::path path;  // behind all symbolic links
-  int descriptor = -1;         // of a stream that the program was started with
-  bool through = false;        // no regular file: opened, written, closed
+  std::filesystem::path path;  // after all symbolic links
+  int descriptor = -1;         // of an inherited stream; -1: none
+  bool through = false;        // not a regular file: opened, written and closed in place
 };
 
-constexpr int most_links = 40;  // of symbolic links behind each other, as in Linux
+constexpr int most_links = 40;  // maximal length of a chain of symbolic links, as in Linux
 
 fs::path folder_of(const fs::path& path) { return path.has_parent_path() ? path.parent_path() : fs::path("."); }
 
-// The descriptor that a name stands for; -1 for the name of a file.
+// The descriptor that a name denotes; -1 for the name of a file.
 int descriptor_of(const fs::path& path) {
   const std::string& name = path.native();
   if (name == "-" || name == "/dev/stdout") { return STDOUT_FILENO; }
@@ -47,8 +47,8 @@ int descriptor_of(const fs::path& path) {
   return -1;
 }
 
-// What makes a file that file, whatever its name: where it lies on the disk, or the folder and name of what does not exist yet. A
-// device is not asked: /dev/null and a terminal may be named twice.
+// Identifies a file whatever its name: device and inode, or, if it does not exist yet, those of its folder and its name. A character
+// device has no identity, because /dev/null and a terminal may be named twice.
 struct Identity {
   ::dev_t device = 0;
   ::ino_t number = 0;
@@ -85,7 +85,7 @@ bool same(const Destination& a, const Destination& b) {
 
 std::string because() { return std::string(": ") + std::strerror(errno); }
 
-// Nothing when the path leads nowhere; errno says why.
+// Nothing if the path cannot be resolved; errno says why.
 std::optional<Destination> destination(const std::string& path) {
   Destination to{path};
   struct ::stat status {};
@@ -175,8 +175,8 @@ namespace {
 
 std::atomic<const char*> unfinished{nullptr};
 
-// A new file beside `target`; it is removed unless it was renamed. Its name is random, so that no other file has it, and a signal may
-// remove it at any time.
+// A new file beside `target`, removed unless it was renamed. Its name is random, so no other file has it, and a signal handler may remove
+// it at any time.
 class Temporary {
  public:
   explicit Temporary(const std::filesystem::path& target) {
@@ -200,7 +200,7 @@ class Temporary {
 
   [[nodiscard]] bool made() const { return made_; }
   [[nodiscard]] int file() const { return file_; }
-  // On Linux write-back errors (a full quota, a lost share) may show at fsync or close only.
+  // On Linux, write-back errors (a full quota, a lost network share) may appear only at fsync or close.
   bool finish(const std::filesystem::path& target) {
     if (::fsync(file_) != 0) { return false; }
     const bool closed = ::close(file_) == 0;
@@ -216,7 +216,7 @@ class Temporary {
   bool made_ = false;
 };
 
-// Writing to a pipe waits until it is read, which may never happen: there a signal ends the attempt.
+// A write to a pipe waits for the reader, perhaps forever, so for a stream a signal ends the attempt.
 bool write_all(int file, std::string_view bytes, bool stream) {
   while (!bytes.empty()) {
     const ssize_t written = ::write(file, bytes.data(), bytes.size());
@@ -252,7 +252,7 @@ std::optional<std::string> write_file(const std::string& path, std::string_view 
   const auto to = destination(path);
   const bool through = to && (to->descriptor >= 0 || to->through);
   if (to && (through ? write_through(*to, bytes) : replace(*to, bytes))) { return std::nullopt; }
-  if (through && errno == EPIPE) { return std::nullopt; }  // whoever reads has read enough
+  if (through && errno == EPIPE) { return std::nullopt; }  // the reader has read what it wanted
   return "cannot write " + path + ": " + std::strerror(errno);
 }
 
@@ -266,7 +266,7 @@ std::optional<std::string> NewFolder::fault() const {
 
 NewFolder::~NewFolder() {
   std::error_code failed;
-  if (made_) { std::filesystem::remove(path_, failed); }  // does nothing when something is in it
+  if (made_) { std::filesystem::remove(path_, failed); }  // has no effect if the folder contains anything
 }
 
 void remove_unfinished_file() noexcept {

@@ -1,23 +1,23 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// A scene graph is walked. Its nodes stand under a root, and one node may stand in many places, so that what is used often exists once.
-// The walk is depth first, in the order of the children, with a state that is handed on: what a node changes holds for all that comes
-// behind it, until a node around it that keeps the changes of its children to itself is left.
+// Walks a scene graph: its nodes have a common root, and one node may have several parents, so that repeated parts exist only once. The
+// walk is depth first, in the order of the children, with a state that is passed on: a change made by a node holds for all nodes after
+// it, until an ancestor that confines the changes of its children is left.
 //
-// The groups and uses of a .scene file (scene_file/groups.cpp) and the nodes of VRML (vrml/traverse.cpp) are such graphs. What a node
-// means is said by
-//     bool enter(node, state)             changes the state, or does what there is to do; false: the walk is given up
+// The groups and uses of a .scene file (scene_file/groups.cpp) and the nodes of VRML (vrml/traverse.cpp) are such graphs. The caller
+// defines the meaning of nodes by
+//     bool enter(node, state)             changes the state or produces output; false ends the walk
 //     children(node)                      a list of nodes
-//     void leave(node, before, state)     takes changes back; `before` is the state before the node was entered
+//     void leave(node, before, state)     undoes changes; `before` is the state before the node was entered
 
 #include <cstddef>
 
 namespace apps {
 
 struct GraphLimits {
-  std::size_t deepest = 200;            // nodes on the way from the root to a leaf
-  std::size_t most_visits = 2'000'000;  // uses of uses multiply
+  std::size_t deepest = 200;            // largest number of nodes on a path from the root to a leaf
+  std::size_t most_visits = 2'000'000;  // nested uses multiply
 };
 
 template <class Meaning, class State>
@@ -25,7 +25,7 @@ class GraphWalk {
  public:
   GraphWalk(Meaning& meaning, GraphLimits limits) : meaning_(meaning), limits_(limits) {}
 
-  // False: it was given up, by enter() or at a limit.
+  // False: enter() or a limit has ended the walk.
   template <class Node>
   bool visit(const Node& node, State& state, std::size_t depth = 0) {
     if (++visits_ > limits_.most_visits || depth > limits_.deepest) { return false; }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The halflight program: reads the command line, runs one command, ends with its exit code.
+// The halflight program: reads the command line, runs one command, and returns its exit code.
 #include <exception>
 #include <new>
 

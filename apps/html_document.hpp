@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// What every page of the program has: one file, no network, no library; it works from a folder.
+// Common parts of all pages that the program writes: each is one file without network access or libraries, which works when
+// opened from a folder.
 
 #include <string>
 #include <string_view>
@@ -11,8 +12,8 @@
 
 namespace apps {
 
-// Text inside SVG and HTML: & < > " ' are written as entities, so the text may stand between tags and in an attribute; characters that XML
-// forbids are left out, bytes that are no text replaced.
+// Text for SVG and HTML: & < > " ' become entities, so the text may stand between tags and in an attribute; characters that XML forbids
+// are left out, and bytes that are not UTF-8 are replaced.
 [[nodiscard]] inline std::string escaped(std::string_view text) {
   constexpr std::string_view marks = "&<>\"'";
   constexpr const char* entities[] = {"&amp;", "&lt;", "&gt;", "&quot;", "&#39;"};
@@ -33,14 +34,14 @@ namespace apps {
          escaped(title) + "</title>\n<style>" + style + "\n</style>\n</head>\n<body>" + body + "</body>\n</html>\n";
 }
 
-// The elements of a page, then its script, which knows the JSON as `data`.
+// The elements of a page and its script, which reads the JSON as `data`.
 [[nodiscard]] inline std::string with_script(const std::string& elements, const std::string& json, const std::string& script) {
   std::string data;
-  for (const char c : json) { c == '<' ? data += "\\u003c" : data += c; }  // so that nothing in it ends the script element
+  for (const char c : json) { c == '<' ? data += "\\u003c" : data += c; }  // so that no text in it ends the script element
   return elements + "<script>\n'use strict';\nconst data = " + data + ";" + script + "</script>\n";
 }
 
-// A page that is gone through step by step, by the controls that all these share (page/).
+// A page that shows one step after the other, with the controls that all these pages share (page/).
 [[nodiscard]] inline std::string stepped_document(const std::string& title, const std::string& style, const std::string& elements,
                                                   const std::string& json, const std::string& script) {
   return html_document(title, embedded::page_common_css + style, with_script(elements, json, embedded::page_common_js + script));

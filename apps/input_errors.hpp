@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// What is wrong with a text that was read: scenes and meshes of every format have the same list, and say it in the same words. Reading
-// does not stop at the first error; it ends after `max_errors` of them.
+// Errors in a text that was read: scenes and meshes of all formats use the same list and the same wording. Reading does not stop at the
+// first error but after `max_errors` of them.
 
 #include <algorithm>
 #include <cstddef>
@@ -17,8 +17,8 @@ namespace apps {
 
 inline constexpr std::size_t max_errors = 20;
 
-// Line and column count from 1; a column is a character (not a byte) of the line. In a binary file the line is 0 and the column the byte,
-// from 1.
+// Line and column count from 1; a column is a character of the line, not a byte. In a binary file the line is 0 and the column is the
+// byte, counted from 1.
 struct Place {
   std::uint32_t line = 1;
   std::uint32_t column = 1;
@@ -26,7 +26,7 @@ struct Place {
   friend bool operator==(const Place&, const Place&) = default;
 };
 
-// Of a byte of a text whose lines end with LF; here a column is a byte.
+// The place of a byte in a text whose lines end with LF; the column here is a byte.
 [[nodiscard]] inline Place place_of(std::string_view text, std::size_t offset) {
   const std::string_view before = text.substr(0, offset);
   const std::size_t last = before.rfind('\n');
@@ -41,10 +41,10 @@ struct InputError {
 
 struct ErrorReport {
   std::vector<InputError> errors;  // in the order of the file
-  bool more_errors = false;        // reading was given up at max_errors
+  bool more_errors = false;        // reading stopped at max_errors
 };
 
-// One line per error: "box.scene:12:8: error: ..."; the last line says so when more were found.
+// One line per error: "box.scene:12:8: error: ..."; a last line says so if more were found.
 [[nodiscard]] inline std::string to_text(const ErrorReport& report, std::string_view name) {
   std::string text;
   for (const auto& [place, sentence] : report.errors) {
@@ -59,7 +59,7 @@ struct ErrorReport {
   return text;
 }
 
-// The errors of one file while it is read. Never holds more than max_errors; then full() is true and reading stops.
+// The errors of one file while it is read. Contains at most max_errors; then full() is true and reading stops.
 class Errors {
  public:
   void add(Place place, std::string sentence) {
@@ -71,10 +71,11 @@ class Errors {
   }
   [[nodiscard]] std::size_t count() const { return list_.size(); }
   [[nodiscard]] bool full() const { return full_; }
-  // The last error lies there, so that what stands there need not be blamed twice.
+  // Is this the place of the last error? Then what stands there need not be reported twice.
   [[nodiscard]] bool just_reported(Place place) const { return !list_.empty() && list_.back().place == place; }
 
-  // Sorted by place. What is in a group of a scene is looked at once for every use: an error that was found again is told once.
+  // Sorted by place, without duplicates: the contents of a scene's group are checked once per use, so an error there is found several
+  // times.
   [[nodiscard]] ErrorReport take() {
     const auto place = [](const InputError& e) { return std::tie(e.place.line, e.place.column); };
     std::stable_sort(list_.begin(), list_.end(), [&](const auto& a, const auto& b) { return place(a) < place(b); });

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Writes JSON (RFC 8259), indented by two spaces, keys in the order of the calls.
+// Writes JSON (RFC 8259), indented by two spaces, with keys in the order of the calls.
 //
 //     JsonWriter json;
 //     json.open_object();
@@ -10,8 +10,9 @@
 //     json.close();
 //     const std::string text = json.text();
 //
-// The caller keeps the structure right: a key before every value in an object. Bytes that are not UTF-8, as names of files may hold, become
-// U+FFFD. Numbers are written with the fewest digits that read back as the same double; NaN and infinities, which JSON lacks, become null.
+// The caller must keep the structure valid: a key before every value in an object. Bytes that are not UTF-8 (file names may contain them)
+// become U+FFFD. Numbers are written with the fewest digits that read back as the same double; NaN and infinities, which JSON lacks,
+// become null.
 
 #include <array>
 #include <charconv>
@@ -59,8 +60,8 @@ class JsonWriter {
     return *this;
   }
 
-  // By its type: a truth value, a count, a number, text, what an optional holds or null, a list of any of these, a vector of three, or what
-  // a function writes.
+  // Writes a value according to its type: boolean, count, number, text, the content of an optional or null, a list of these, a vector of
+  // three, or whatever a function writes.
   template <class Value>
   JsonWriter& value(const Value& value) {
     if constexpr (std::is_same_v<Value, bool>) {
@@ -82,14 +83,14 @@ class JsonWriter {
     }
     return *this;
   }
-  // What `write` writes of each.
+  // An array whose elements `write` writes.
   template <class List, class Write>
   JsonWriter& list(const List& items, const Write& write) {
     open_array();
     for (const auto& item : items) { write(item); }
     return close();
   }
-  // fields("name", name, "area", area): keys, each with its value. object() puts them in braces.
+  // fields("name", name, "area", area) writes keys with their values; object() also encloses them in braces.
   JsonWriter& fields() { return *this; }
   template <class Value, class... Rest>
   JsonWriter& fields(std::string_view name, const Value& its_value, const Rest&... rest) {

@@ -94,7 +94,7 @@ std::string checksum_of_bytes(std::string_view bytes) {
   return sum.text();
 }
 
-// Changes with everything that the light depends on: colours, and shapes by the corners of coarse approximations.
+// A checksum of everything that the light depends on: colours, and shapes by the corners of coarse approximations.
 std::string key_of(const radiosity::Scene& scene, const radiosity::Frame& frame) {
   Checksum sum;
   const auto add = [&](const glm::dvec3& v) {
@@ -134,7 +134,7 @@ constexpr std::size_t bytes_of_head = 3 * 8, bytes_of_position = 3 * 8, bytes_of
 
 bool all_finite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
-// Do all numbers name what there is?
+// Are all indices within range and all numbers finite?
 bool consistent(const radiosity::Mesh& mesh, std::size_t surfaces) {
   for (const glm::dvec3& p : mesh.positions) {
     if (!all_finite(p)) { return false; }
@@ -157,7 +157,7 @@ struct LightParts {
   std::string_view key, source, mesh;
 };
 
-// The parts of a file whose checksum is right.
+// The parts of a file whose checksum is correct.
 std::optional<LightParts> parts_of(std::string_view bytes, std::string& reason) {
   reason = "not a .light file of this version";
   if (!bytes.starts_with(light_opening)) { return std::nullopt; }
@@ -205,7 +205,7 @@ LightResult read_light_file(std::string_view bytes, const radiosity::Scene& scen
   light.frame = *frame;
   std::uint64_t positions = 0, corners = 0, faces = 0;
   in(positions, corners, faces);
-  const std::uint64_t most = in.left();  // no count is larger, so that the sum below does not overflow
+  const std::uint64_t most = in.left();  // no count can be larger; ensures that the sum below does not overflow
   if (positions > most || corners > most || faces > most ||
       positions * bytes_of_position + corners * bytes_of_corner + faces * bytes_of_face != in.left()) {
     return {std::nullopt, damaged};

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The light of a solution in a file (.light), from which further pictures of the scene are drawn without solving it again: what the scene
-// was read from, and the mesh with its colours, in full precision, so that these pictures are the same to the bit.
+// The light of a solution in a file (.light), from which further pictures of the scene are drawn without solving it again. It contains
+// the source of the scene, and the mesh with its colours in full precision, so that these pictures are bit-identical.
 //
 //   "halflight light 2\n", key of the scene and "\n", then little-endian, without gaps:
 //   uint64: number of bytes of the scene's source; these bytes
@@ -11,7 +11,7 @@
 //   a face: uint32 first corner, number of corners, input surface; 3 double radiosity
 //   checksum of all before, 16 hexadecimal digits
 //
-// The key is a checksum of the materials and of the objects' shapes: light of another scene is refused, and so is a damaged file.
+// The key is a checksum of the materials and of the objects' shapes; light of another scene is refused, and so is a damaged file.
 
 #include <optional>
 #include <string>
@@ -27,29 +27,29 @@
 
 namespace apps {
 
-// All that a scene was read from: its file, the files beside it, and what the command line said. A .light file holds it, so that pictures
-// are drawn from that file alone.
+// Everything from which a scene was read: its file, the files beside it, and the options of the command line. A .light file contains it,
+// so that it is enough to draw pictures.
 struct SceneSource {
-  std::string path;  // its ending tells the format
+  std::string path;  // its extension determines the format
   std::string text;
   std::vector<FileBeside> beside;
   ModelOptions options;
 };
 
-// By archive.hpp, in the order of the members.
+// Written by archive.hpp, in the order of the members.
 [[nodiscard]] std::string to_bytes(const SceneSource& source);
-// Nothing when the bytes are not those of a source.
+// Nothing if the bytes are not those of a source.
 [[nodiscard]] std::optional<SceneSource> read_scene_source(std::string_view bytes);
 
-// Finds the files beside the scene in the source, which must outlive the result.
+// Looks up the files beside the scene in the source, which must outlive the result.
 [[nodiscard]] SideFile files_of(const SceneSource& source);
 
 struct Light {
-  radiosity::Mesh mesh;  // faces do not name nodes of a hierarchy
+  radiosity::Mesh mesh;  // its faces do not refer to nodes of a hierarchy
   radiosity::Frame frame;
 };
 
-// Of a sound scene, which was read from `source`.
+// The file's bytes for a valid scene that was read from `source`.
 [[nodiscard]] std::string to_light_file(const radiosity::Mesh& mesh, const radiosity::Frame& frame, const radiosity::Scene& scene,
                                         const SceneSource& source);
 
@@ -59,7 +59,7 @@ struct LightResult {
 };
 [[nodiscard]] LightResult read_light_file(std::string_view bytes, const radiosity::Scene& scene);
 
-// What the scene was read from; nothing and a sentence in `reason` where that is not in the file.
+// The source of the scene; if it is not in the file, nothing and a sentence in `reason`.
 [[nodiscard]] std::optional<SceneSource> source_in_light_file(std::string_view bytes, std::string& reason);
 
 }  // namespace apps

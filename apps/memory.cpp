@@ -15,7 +15,7 @@
 namespace apps {
 namespace {
 
-// A line of /proc/self/status that holds kilobytes: "VmHWM:     12345 kB".
+// The value, in bytes, of a line of /proc/self/status in kilobytes: "VmHWM:     12345 kB".
 std::optional<std::uint64_t> status(std::string_view name) {
   std::ifstream file("/proc/self/status");
   for (std::string line; std::getline(file, line);) {
@@ -73,7 +73,7 @@ PeakMeter::PeakMeter() {
 #endif
   if (!reset_peak()) { return; }
   before_ = resident_memory();
-  // The system also counts what the program that started this one held, for getrusage(2) alone.
+  // The peak of getrusage(2) may still include the program that started this one; then it has not been reset.
   constexpr std::uint64_t margin = 1 << 22;
   const auto peak = radiosity::peak_memory();
   stages_follow_ = before_ && peak && *peak <= *before_ + margin;

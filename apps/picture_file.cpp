@@ -18,13 +18,13 @@
 namespace apps {
 namespace {
 
-// A threshold between 0 and 1 for the pixel. It keeps off both ends, so that values that are a level, up to rounding, stay that level.
+// A threshold between 0 and 1 for the pixel. It avoids both ends, so that a value that equals a level up to rounding remains at this level.
 double threshold(std::uint32_t x, std::uint32_t y) {
   const auto fraction = [](double value) { return value - std::floor(value); };
   return 0.001 + 0.998 * fraction(52.9829189 * fraction(0.06711056 * x + 0.00583715 * y));
 }
 
-// ISO 3309, as PNG has it; bit by bit, for a few bytes.
+// CRC of ISO 3309, as in PNG; computed bit by bit because it is only used for a few bytes.
 std::uint32_t crc32(std::string_view bytes) {
   std::uint32_t crc = 0xffffffff;
   for (const char byte : bytes) {
@@ -67,7 +67,7 @@ std::string to_png(const radiosity::Picture& picture, const radiosity::Tone& ton
   };
   const int width = static_cast<int>(picture.width), height = static_cast<int>(picture.height);
   if (stbi_write_png_to_func(append, &bytes, width, height, 3, dithered(picture).data(), 3 * width) == 0) { return {}; }
-  constexpr std::size_t header = 8 + 25;  // the signature, and the chunk that comes first
+  constexpr std::size_t header = 8 + 25;  // the signature and the first chunk
   return bytes.insert(header, text_chunk("Exposure", formatted("%.6g", tone.exposure) + " per W/m2/sr, tone " + name(tone.curve)));
 }
 
@@ -84,7 +84,8 @@ std::vector<float> radiance(const radiosity::Picture& picture) {
 
 }  // namespace
 
-// Not compressed. Mantissas are scaled so that the largest is 128 or more, and no pixel looks like the beginning of a compressed row.
+// The rows are not compressed. Mantissas are scaled so that the largest is at least 128, so no pixel looks like the start of a compressed
+// row.
 std::string to_hdr(const radiosity::Picture& picture) {
   std::string bytes = "#?RADIANCE\n# linear radiance, W/m2/sr\nFORMAT=32-bit_rle_rgbe\n\n-Y ";
   bytes += std::to_string(picture.height) + " +X " + std::to_string(picture.width) + "\n";

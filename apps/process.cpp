@@ -18,12 +18,12 @@ std::atomic<bool> watched{false};
 std::atomic<bool> interrupted{false};
 static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may touch lock-free atomics only");
 
-std::atomic<long> first_signal{0};  // second at which it came
+std::atomic<long> first_signal{0};  // time in seconds at which it arrived
 static_assert(std::atomic<long>::is_always_lock_free);
 
 constexpr std::size_t stack_needed = 1 << 20;
 
-// Where the limit is lower (`ulimit -s`), what a thread of that stack can do must do.
+// Under a lower limit (`ulimit -s`) the main thread must do with the stack that there is.
 [[nodiscard]] bool may_grow() {
   rlimit limit{};
   return ::getrlimit(RLIMIT_STACK, &limit) == 0 && limit.rlim_cur >= 2 * stack_needed;
@@ -32,17 +32,17 @@ constexpr std::size_t stack_needed = 1 << 20;
 [[gnu::noinline]] void touch_stack() {
   constexpr std::size_t page = 4096;
   volatile char stack[stack_needed];
-  for (std::size_t i = stack_needed; i > 0; i -= page) { stack[i - 1] = 0; }  // downwards, as it grows
+  for (std::size_t i = stack_needed; i > 0; i -= page) { stack[i - 1] = 0; }  // downwards, in the direction in which it grows
   static_cast<void>(stack[0]);
 }
 
-// Signals within a second of the first are the same request: timeout(1) sends one to the program and another to its process group.
+// Signals within a second of the first count as the same request: timeout(1) sends one to the program and another to its process group.
 extern "C" void on_signal(int number) {
   timespec now{};
   ::clock_gettime(CLOCK_MONOTONIC, &now);
   if (!watched || number == SIGQUIT) {
     remove_unfinished_file();
-    std::signal(number, SIG_DFL);  // so that the program's parent sees what ended it
+    std::signal(number, SIG_DFL);  // so that the parent sees which signal ended the program
     ::raise(number);               // delivered when the handler returns
   } else if (!interrupted) {
     first_signal = now.tv_sec;
@@ -56,12 +56,12 @@ extern "C" void on_signal(int number) {
 }  // namespace
 
 void claim_stack() {
-  ::operator delete(::operator new(stack_needed));  // throws where there is not so much
+  ::operator delete(::operator new(stack_needed));  // throws if there is not so much memory
   if (may_grow()) { touch_stack(); }
 }
 
 void guard_process() {
-  // Standard streams that were closed are opened on /dev/null, so that no other file takes their numbers. Writing to them fails, as before.
+  // Closed standard streams are opened on /dev/null, so that no other file gets their numbers. Writing to them fails, as before.
   while (true) {
     const int file = ::open("/dev/null", O_RDONLY);
     if (file < 0 || file > STDERR_FILENO) {
@@ -74,7 +74,7 @@ void guard_process() {
   struct ::sigaction action {};
   action.sa_handler = on_signal;
   ::sigemptyset(&action.sa_mask);
-  action.sa_flags = 0;  // a read or write that waits ends with EINTR
+  action.sa_flags = 0;  // a waiting read or write ends with EINTR
   for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGXCPU}) {
     struct ::sigaction old {};
     const bool ignored = ::sigaction(number, nullptr, &old) == 0 && old.sa_handler == SIG_IGN;

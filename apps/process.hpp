@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The program as a process: how it ends, what may end it early, and what it tells on stderr while it works.
+// The program as a process: its exit codes, the signals that may end it early, and its progress messages on stderr.
 
 #include <atomic>
 #include <chrono>
@@ -20,38 +20,38 @@ inline constexpr const char* version = HALFLIGHT_VERSION;
 inline constexpr const char* version = "unknown";
 #endif
 
-// How the program ends; documented in `halflight --help`.
+// How the program ends; also documented in `halflight --help`.
 enum class ExitCode : int {
   ok = 0,
   failure = 1,        // cannot read or write a file, out of memory, interrupted with nothing to show
   usage = 2,          // the command line is wrong
   invalid_input = 3,  // the scene file or the mesh is wrong; the output says where
-  not_converged = 4,  // the error target or the residual was not reached, or interrupted; what was found is written all the same
+  not_converged = 4,  // the error target or the residual was not reached, or interrupted; results were written nevertheless
 };
 
-// Takes the stack that the main thread may need, or throws bad_alloc. The system gives it out as it is used, and where the process may have
-// no more memory, that ends it by a signal in place of a refusal. Other threads have theirs from the start.
+// Reserves the stack that the main thread may need, or throws bad_alloc. The system otherwise allocates it on use, and if the process may
+// have no more memory then, a signal ends the process instead of an exception. Other threads have their stacks from the start.
 void claim_stack();
 
 // --- signals
 //
-// Whatever ends the program - Ctrl-C, kill, a closed terminal, a limit of time - a file that is being written is removed first.
+// Whatever ends the program (Ctrl-C, kill, a closed terminal, a time limit), a file that is being written is removed first.
 //
-// A command that can stop early calls watch_interrupts(): the first signal then sets a flag that the solver and the picture look at, and
-// the command ends with nothing half-written; a second one ends the program at once. Without, the first one does.
+// A command that can stop early calls watch_interrupts(). The first signal then sets a flag that the solver and the picture check, and
+// the command ends without half-written files; a second signal ends the program at once. Without this call the first one does.
 //
-// A write beyond the limit of file size, or to a closed pipe, raises no signal: the write fails with an error.
+// A write beyond the file size limit or to a closed pipe raises no signal but fails with an error.
 
-// Installs the handlers. Called once, before anything else.
+// Installs the handlers. Must be called once, before anything else.
 void guard_process();
 
 // From now on the first signal sets the flag.
 const std::atomic<bool>& watch_interrupts();
 
-// --- narration on stderr
+// --- progress messages on stderr
 //
-// On a terminal one line with a bar that is drawn over itself, at most 20 times a second; elsewhere one line per stage. Silent when quiet.
-// Results never go this way: they belong to stdout.
+// On a terminal, one line with a bar that is redrawn in place at most 20 times a second; elsewhere one line per stage. Prints nothing if
+// quiet. Results are never printed here: they belong to stdout.
 class Progress {
  public:
   explicit Progress(bool quiet) : quiet_(quiet), terminal_(::isatty(STDERR_FILENO) != 0) {}
@@ -80,14 +80,14 @@ class Progress {
     shown_ = true;
   }
 
-  // One line of narration.
+  // Prints one line.
   void say(const std::string& sentence) {
     if (quiet_) { return; }
     done();
     std::fprintf(stderr, "halflight: %s\n", sentence.c_str());
   }
 
-  // Wipes the bar.
+  // Erases the bar.
   void done() {
     if (shown_) { std::fprintf(stderr, "\r%60s\r", ""); }
     shown_ = false;

@@ -16,12 +16,12 @@ namespace {
 std::string error_text(const std::optional<radiosity::ErrorEstimate>& error) {
   if (!error) { return "not measured"; }
   if (error->high == 0.0) { return "none"; }
-  // Lost in the noise of path tracing, or not known to within its own size.
+  // The error is lost in the noise of path tracing, or not known to within its own size.
   if (radiosity::is_wide(*error)) { return "below " + percent(error->high); }
   return percent(error->relative_l2) + "  (" + percent(error->low) + " to " + percent(error->high) + ")";
 }
 
-// Does the interval leave open how large the error is?
+// Is the interval too wide to tell how large the error is?
 bool leaves_open(const radiosity::ErrorEstimate& error) {
   return error.high > radiosity::negligible_error && error.high - error.low > std::max(0.01, 1.5 * error.relative_l2);
 }
@@ -58,7 +58,7 @@ class Text {
 
  private:
   void row(std::string_view label, const std::string& value) { out_ += text_row(label, value); }
-  // A sentence that names facts; left out where one of them is not known. `more` follows as it is.
+  // A sentence that names facts; left out if one of them is not known. `more` is appended unchanged.
   void say(std::string_view label, std::string_view sentence, const std::string& more = {}) {
     if (const auto text = facts_.text(sentence)) { row(label, *text + more); }
   }

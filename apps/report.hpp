@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// What a run says about itself: how wrong it is, how long it took, what it left out. Once as text for people, once as
-// JSON whose keys are documented in examples/scenes/README.md ("Report keys") and stay as they are.
+// The report of a run: how wrong it is, how long it took, what it left out. It exists as text for people and as JSON, whose
+// keys are documented in examples/scenes/README.md ("Report keys") and are stable.
 
 #include <optional>
 #include <string>
@@ -17,7 +17,7 @@
 
 namespace apps {
 
-// What is drawn: the mesh, or the true objects in light gathered for the picture.
+// What the picture shows: the mesh, or the true objects in light gathered for each pixel.
 enum class PictureMethod { mesh, gather };
 inline constexpr const char* name(PictureMethod method) {
   constexpr const char* names[] = {"mesh", "gather"};
@@ -39,7 +39,7 @@ struct LightmapReport {
 
 struct Report {
   std::string scene;                  // the file's name as it was given
-  std::vector<std::string> taken_in;  // what was changed in a file of another program
+  std::vector<std::string> taken_in;  // what was changed when a file of another program was read
   radiosity::Options options;
   radiosity::Audit audit;
   double exposure = 1.0;
@@ -52,7 +52,7 @@ struct Report {
 };
 
 [[nodiscard]] std::string to_text(const Report& report);
-// The rows that it has about the error of the picture that a camera has taken.
+// The report's rows about the error of the picture taken by this camera.
 [[nodiscard]] std::string picture_error_text(const radiosity::PictureError& picture, const std::string& camera);
 [[nodiscard]] std::string to_json(const Report& report);
 

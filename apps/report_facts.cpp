@@ -15,7 +15,7 @@
 namespace apps {
 namespace {
 
-// Most that the process has held until the report, as far as it was measured.
+// The largest memory that the process has held before the report, as far as it was measured.
 std::optional<std::uint64_t> peak_bytes(const Report& report) {
   std::optional<std::uint64_t> peak;
   for (const radiosity::StageTime& stage : report.audit.stages) { peak = std::max(peak, stage.peak_bytes); }
@@ -52,7 +52,7 @@ void add_picture_error(Facts& facts, const radiosity::PictureError& picture) {
 void add_errors(Facts& facts, const Report& report) {
   const radiosity::Audit& audit = report.audit;
   if (!audit.leaf_error) { return facts.add("error", {}); }
-  if (audit.surface_error) { add_error(facts, "error", *audit.surface_error); }  // else nobody asked for a reconstruction
+  if (audit.surface_error) { add_error(facts, "error", *audit.surface_error); }  // missing if no reconstruction was requested
   facts.add("error.points", audit.audit_points);
   facts.add("error.rays", audit.audit_rays);
   add_error(facts, "error.leaf", *audit.leaf_error);
@@ -73,7 +73,7 @@ void add_errors(Facts& facts, const Report& report) {
   }
 }
 
-// Stages of one name (a run that was repeated to meet its error target) are added up; of their peaks the last is the largest.
+// Stages of the same name (in a run repeated to meet its error target) are added up; of their peaks the last is the largest.
 void add_stages(Facts& facts, const Report& report) {
   const radiosity::Audit& audit = report.audit;
   struct Sum {
@@ -143,7 +143,7 @@ void add_settings(Facts& facts, const Report& report) {
   facts.add("picture.method", std::string(name(report.picture->method)));
 }
 
-// A list of what `write` writes of each.
+// Adds a list whose items `write` writes.
 template <class Item, class Write>
 void add_list(Facts& facts, const char* path, const std::vector<Item>& items, const Write& write) {
   facts.add(path, [&items, write](JsonWriter& json) { json.list(items, [&](const Item& item) { write(json, item); }); });

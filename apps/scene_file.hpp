@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The `.scene` file: text made for people, described in examples/scenes/README.md.
+// The `.scene` file: text written by people, described in examples/scenes/README.md.
 //
-// Reading one gives a value: the scene with its cameras, or a list of errors. Every error says where it lies, what stands there and what
-// was expected. No input makes it throw, crash, recurse deeply or run without end: the size of the file, the number of objects that `use`
-// may make and the corners of one polygon have limits, each with its sentence.
+// Reading gives the scene with its cameras, or a list of errors. Every error says where it is, what stands there and what was expected.
+// No input makes reading throw, crash, recurse deeply or run without end: the size of the file, the number of objects made by `use` and
+// the corners of one polygon have limits, each with its own error sentence.
 //
 //     text -> lexer (words, numbers, braces, ends of lines) -> parser (statements with their places)
 //          -> build (names resolved, shapes made, groups placed) -> SceneFile
@@ -33,54 +33,55 @@ inline constexpr std::size_t max_file_bytes = std::size_t{256} << 20;
 inline constexpr std::size_t max_objects = 100'000;
 inline constexpr std::size_t max_use_depth = 64;
 inline constexpr std::size_t max_polygon_corners = 1024;  // the test for self-intersection is quadratic
-inline constexpr double max_number = 1e30;                // products of four lengths stay far from overflow
+inline constexpr double max_number = 1e30;                // so that products of four lengths are far from overflow
 inline constexpr std::uint32_t max_picture_side = 16'384;
 
-// What the file says about an object and a run does not need; messages and `halflight info` name it.
+// Data about an object that a run does not need; messages and `halflight info` use it.
 struct ObjectOrigin {
   std::string_view kind;  // "box", "mesh", ...
   Place place;
 };
 
-// The polygons of a file of another program as they stand in it, so that their light can go back to them.
+// The polygons of a file of another program as they are in the file, so that their light can be written back to them.
 struct GivenPolygons {
-  std::vector<glm::dvec3> positions, placed;  // in the file; in the scene
+  std::vector<glm::dvec3> positions, placed;  // in the coordinates of the file; in those of the scene
   std::vector<std::uint32_t> corners, first_corner;
-  radiosity::PolygonParts parts;  // of the objects from this one on:
+  radiosity::PolygonParts parts;  // of the objects from first_object on
   std::uint32_t first_object = 0;
-  bool z_up = false;  // in the file
+  bool z_up = false;  // is z the vertical axis of the file?
 };
 
-// A file beside a scene that was read for it: a mesh, materials, a picture, a part.
+// A file that was read for a scene: a mesh, materials, a picture, a part.
 struct FileBeside {
-  std::string name;  // as the scene says it
+  std::string name;  // as named in the scene
   std::string path, bytes;
 };
 
 struct SceneFile {
   radiosity::Scene scene;
-  std::vector<ObjectOrigin> origins;  // one per scene.objects
+  std::vector<ObjectOrigin> origins;  // by index of scene.objects
   std::vector<radiosity::Camera> cameras;
-  std::vector<std::string> notes;  // of files of other formats: what was changed or taken otherwise
-  std::string text;                // the file itself, where an output is to hold it
+  std::vector<std::string> notes;  // about files of other formats: what was changed or read differently
+  std::string text;                // the file itself, for an output that contains it
   std::vector<FileBeside> beside;
-  std::shared_ptr<GivenPolygons> given;  // of files of other formats; null: none
+  std::shared_ptr<GivenPolygons> given;  // only for files of other formats, else null
 };
 
-// A file beside the one that is read, by its name there: its bytes, or nothing and a sentence such as "cannot be opened: ...".
+// Reads a file by the name that the scene gives it: returns its bytes, or nothing and a sentence such as "cannot be opened: ...".
 using SideFile = std::function<std::optional<std::string>(const std::string& name, std::string& fault)>;
 
 struct SceneResult : ErrorReport {
-  std::optional<SceneFile> file;  // nothing when there are errors
+  std::optional<SceneFile> file;  // nothing if there are errors
 };
 
-// The scene that `text` describes. Without `side_file` no mesh can be in a file of its own. `first`: a camera that comes before its own.
+// The scene that `text` describes. Without `side_file` it cannot use meshes from other files. `first`: a camera to place before its own.
 [[nodiscard]] SceneResult parse_scene(std::string_view text, const SideFile& side_file = {},
                                       const std::optional<radiosity::Camera>& first = {});
 
-// A camera by the clauses of its statement, such as "eye 1 2 1.5 target 0 0 1 fov 60", or nothing and a sentence in `fault`.
+// Parses the clauses of a camera statement, such as "eye 1 2 1.5 target 0 0 1 fov 60"; if they are invalid, nothing and a
+// sentence in `fault`.
 [[nodiscard]] std::optional<radiosity::Camera> parse_camera(std::string_view clauses, std::string& fault);
-// Does the text begin with the word of such a clause, so that it is no name of a camera?
+// Does the text begin with the word of such a clause, so that it is not the name of a camera?
 [[nodiscard]] bool begins_camera(std::string_view text);
 
 // The whole file, "-" for the standard input, or nothing and a sentence in `fault` (missing, a directory, unreadable, too large).

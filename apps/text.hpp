@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Numbers, lists and columns as text, for what the commands print; text as numbers; and UTF-8 (Unicode 15, table 3-7), for texts that come
+// Formatting of numbers, lists and columns for the output of commands, parsing of numbers, and UTF-8 (Unicode 15, table 3-7) for texts
 // from outside.
 
 #include <algorithm>
@@ -16,7 +16,7 @@
 
 namespace apps {
 
-// The number that is the whole text, without sign '+' or blanks; nothing otherwise.
+// The number that the whole text represents, without a '+' or blanks; nothing otherwise.
 template <class Number>
 [[nodiscard]] std::optional<Number> number_in(std::string_view text) {
   Number number{};
@@ -24,7 +24,7 @@ template <class Number>
   return code == std::errc() && end == text.data() + text.size() ? std::optional(number) : std::nullopt;
 }
 
-// "a, b, c"; what is empty is left out.
+// "a, b, c"; empty items are left out.
 template <class List>
 [[nodiscard]] std::string joined(const List& items, std::string_view between = ", ") {
   std::string text;
@@ -34,14 +34,14 @@ template <class List>
   return text;
 }
 
-// By one printf conversion of a double: formatted("%.3g", x).
+// Applies one printf conversion to a double: formatted("%.3g", x).
 [[nodiscard]] inline std::string formatted(const char* format, double x) {
   std::array<char, 400> text{};  // %f of the largest double has 309 digits before the point
   std::snprintf(text.data(), text.size(), format, x);
   return text.data();
 }
 
-// With so many decimals; without zeros at its end, as coordinates of a drawing are written: "1.5", "2", "0".
+// fixed() has this many decimals; trimmed() drops zeros at the end, as for coordinates of a drawing: "1.5", "2", "0".
 [[nodiscard]] inline std::string fixed(double x, int decimals) {
   std::array<char, 400> text{};
   std::snprintf(text.data(), text.size(), "%.*f", decimals, x);
@@ -54,7 +54,7 @@ template <class List>
   return text == "-0" ? "0" : text;
 }
 
-// With the fewest digits that read back as the same number.
+// The fewest digits that read back as the same number.
 [[nodiscard]] inline std::string shortest(double x) {
   std::array<char, 40> digits{};
   return {digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), x).ptr};
@@ -69,12 +69,12 @@ template <class Vector>
   return formatted("%.6g", v.x) + " " + formatted("%.6g", v.y) + " " + formatted("%.6g", v.z);
 }
 
-// The last line of a list of `count` of which `shown` are printed: empty when that is all.
+// The last line of a list of `count` items of which `shown` are printed; empty if that is all.
 [[nodiscard]] inline std::string and_more(std::size_t count, std::size_t shown, const std::string& remark = {}) {
   return shown < count ? "  ... and " + std::to_string(count - shown) + " more" + remark + "\n" : std::string();
 }
 
-// Filled with blanks behind, or before, to `width` characters; at least `gap` of them.
+// Pads the text with blanks after it (left) or before it (right) to `width` characters, with at least `gap` blanks.
 [[nodiscard]] inline std::string left(std::string text, std::size_t width, std::size_t gap = 2) {
   text.resize(std::max(text.size() + gap, width), ' ');
   return text;
@@ -83,7 +83,7 @@ template <class Vector>
   return std::string(std::max(width, text.size() + gap) - text.size(), ' ') + text;
 }
 
-// Length in bytes of the character that begins at text[at]; 0 when it is none: overlong forms, surrogates and code points beyond U+10FFFF.
+// Length in bytes of the character that begins at text[at]; 0 if it is invalid: overlong forms, surrogates, code points beyond U+10FFFF.
 [[nodiscard]] constexpr std::size_t utf8_length(std::string_view text, std::size_t at) {
   const auto byte = [&](std::size_t i) {
     return at + i < text.size() ? static_cast<unsigned char>(text[at + i]) : static_cast<unsigned char>(0);
@@ -103,7 +103,7 @@ template <class Vector>
   return 0;
 }
 
-// The text with U+FFFD, the replacement character, in place of every byte that belongs to no character. Names of files may hold any bytes.
+// Replaces every byte that belongs to no character by U+FFFD, the replacement character. Names of files may contain any bytes.
 [[nodiscard]] inline std::string to_utf8(std::string_view text) {
   std::string result;
   result.reserve(text.size());

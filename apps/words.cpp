@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t longest = 40;
 
-// Optimal string alignment: insert, delete, replace, swap two neighbours. Both words have at most `longest` letters.
+// Optimal string alignment distance: insert, delete, replace, swap two neighbours. Both words have at most `longest` letters.
 std::size_t distance(std::string_view a, std::string_view b) {
   using Row = std::array<std::size_t, longest + 1>;
   Row before{};

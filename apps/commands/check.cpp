@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // halflight check MESH: counts, components, genus, volume, and every fault that keeps the mesh from being a closed surface.
 //
-// With --repair what can be repaired is repaired and told, and -o writes the result; then faults are what remains. Exit
-// code: 0 without faults, 3 with faults or when the file cannot be understood, 1 when it cannot be read or written.
+// With --repair, faults that can be repaired are repaired and listed, and -o writes the result; only the remaining ones then
+// count as faults. Exit code: 0 without faults, 3 with faults or if the file is invalid, 1 if it cannot be read or written.
 #include <algorithm>
 #include <cstdio>
 #include <map>
@@ -27,12 +27,12 @@ struct CheckOptions {
   std::string mesh;
   std::string output;  // empty: none
   bool repair = false;
-  bool all = false;  // lists at full length
+  bool all = false;  // print lists in full
 };
 
 constexpr std::size_t first_few = 10;  // lines of a list, unless --all
 
-// What a kind of fault is, and what to do about it. In the order of brep::DefectKind, to which they belong.
+// The name of a kind of fault and advice about it, in the order of brep::DefectKind.
 struct Lesson {
   const char* title;
   const char* text;
@@ -129,7 +129,7 @@ std::string summary(const brep::Statistics& s, bool all) {
   return text + component_table(s, all);
 }
 
-// Elements that a list names, and where the first of its faces, or else of its vertices, stands in the file.
+// The file's line of the first face, or else of the first vertex, among the elements; empty if unknown.
 std::string where(const std::vector<brep::Element>& elements, const Mesh& mesh, const std::string& name) {
   for (const char letter : {'f', 'v'}) {
     const auto& lines = letter == 'f' ? mesh.face_line : mesh.vertex_line;
@@ -140,7 +140,7 @@ std::string where(const std::vector<brep::Element>& elements, const Mesh& mesh, 
   return {};
 }
 
-// The items of each kind under its heading, at most `first_few` of each.
+// The items of each kind under a heading, at most `first_few` of each unless all are wanted.
 template <class Item, class Heading>
 std::string by_kind(const std::vector<Item>& items, const Mesh& mesh, const CheckOptions& options, Heading heading) {
   std::map<decltype(Item::kind), std::vector<const Item*>> kinds;
@@ -219,7 +219,8 @@ ExitCode run(const CheckOptions& options) {
     remaining = std::move(repaired.remaining);
     brep::Statistics after = brep::statistics(repaired.builder);
     nothing_left = after.components.empty();
-    for (brep::Component& c : after.components) { c.first = brep::FaceId{repaired.old_face[c.first.index]}; }  // as everywhere else
+    // The first face of a component is numbered as in the file.
+    for (brep::Component& c : after.components) { c.first = brep::FaceId{repaired.old_face[c.first.index]}; }
     text += "\n--- the mesh now\n" + summary(after, options.all) + "\n" + verdict(remaining.size(), after);
   }
   text += faults(remaining, *mesh, options);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// A command of the program as data: every argument is a row that says how it is written, what it means and where its value goes.
-// command_line.cpp reads the command line by these rows, and it alone knows CLI11. A new command is one file with a function that
-// returns a Command, declared below, and one line in halflight.cpp.
+// A command of the program as data: every argument is a row with its name, its meaning and the place for its value. command_line.cpp
+// reads the command line by these rows; it is the only file that uses CLI11. A new command is one file with a function that returns a
+// Command, declared below, and one line in halflight.cpp.
 
 #include <cstdint>
 #include <functional>
@@ -21,17 +21,18 @@
 namespace apps {
 
 struct Argument {
-  // How many values stand behind the name: one; one, and the name may be repeated; one or more; one or none.
+  // How many values follow the name: one; one, and the name may be repeated; one or more; none or one.
   enum class Values { one, repeated, many, optional };
 
-  std::string names;  // "scene", which is known by its place, or "-o,--output"
-  std::string value;  // what stands for the value in the help: "FILE"; of a flag: empty
+  std::string names;  // "scene", a positional argument, or "-o,--output"
+  std::string value;  // placeholder for the value in the help: "FILE"; empty for a flag
   std::string description;
-  std::function<std::string(const std::string&)> take;  // keeps a value, or says what was expected and found; of a flag: of any text
+  // Stores a value and returns an empty text, or returns what was expected and found; a flag ignores the text.
+  std::function<std::string(const std::string&)> take;
   Values values = Values::one;
-  std::string preset = {};  // what holds without this argument, for the help
+  std::string preset = {};  // the default, for the help
   bool required = false;
-  std::vector<std::string> excludes = {}, needs = {};  // other arguments
+  std::vector<std::string> excludes = {}, needs = {};  // names of other arguments
 
   [[nodiscard]] Argument must() const {
     return with([](Argument& a) { a.required = true; });
@@ -57,10 +58,10 @@ struct Argument {
 
 struct Command {
   std::string name, summary;
-  std::vector<Argument> arguments;  // their values go into options that `run` keeps alive
+  std::vector<Argument> arguments;  // their values go into options that `run` captures
   std::function<ExitCode()> run;
-  std::function<std::string()> missing = {};  // what the command cannot do without, where no single argument is required
-  std::string usage = {};                     // how it is used, below the arguments of its help
+  std::function<std::string()> missing = {};  // names what is missing if no single argument is required but one of several
+  std::string usage = {};                     // examples, printed below the arguments in the help
 };
 
 [[nodiscard]] Command render_command();
@@ -75,7 +76,7 @@ struct Command {
 [[nodiscard]] Command exercise_command();
 [[nodiscard]] Command figures_command();
 
-// --- kinds of arguments; `target` must outlive the reading of the command line
+// --- kinds of arguments; `target` must outlive the parsing of the command line
 
 [[nodiscard]] inline Argument flag(std::string names, bool& target, std::string description, bool value = true) {
   const auto take = [&target, value](const std::string&) {
@@ -106,7 +107,7 @@ template <class Target>
 [[nodiscard]] inline std::string scene_description() { return "the scene: a .scene file, or " + model_endings(); }
 [[nodiscard]] inline Argument scene_argument(std::string& target) { return text("scene", "SCENE", target, scene_description()).must(); }
 
-// A number in (0, most]; NaN is refused, too.
+// A number in (0, most]; NaN is refused too.
 template <class Target>
 [[nodiscard]] Argument above_zero(std::string names, Target& target, double most, std::string description) {
   const auto take = [&target, most](const std::string& text) {
@@ -118,7 +119,7 @@ template <class Target>
   return {std::move(names), "NUMBER", std::move(description), take};
 }
 
-// Digits alone: no sign, so that -1 does not become the largest number.
+// Digits only: a sign is refused, so that -1 does not become the largest number.
 template <class Target>
 [[nodiscard]] Argument whole_number(std::string names, Target& target, std::uint64_t least, std::uint64_t most, std::string description) {
   const auto take = [&target, least, most](const std::string& text) {
@@ -131,7 +132,7 @@ template <class Target>
   return {std::move(names), "NUMBER", std::move(description), take};
 }
 
-// One of the names; the value that it stands for is kept.
+// One of the names; stores the value belonging to it.
 template <class Target, class Value>
 [[nodiscard]] Argument one_of(std::string names, Target& target, std::vector<std::pair<std::string_view, Value>> known,
                               std::string description) {
@@ -149,7 +150,7 @@ template <class Target, class Value>
   return {std::move(names), "NAME", std::move(description), take};
 }
 
-// What `parse` makes of the text is kept; where that is nothing, `expected` says what should have stood there.
+// Stores the result of `parse`; if there is none, the error message says what was `expected`.
 template <class Target, class Value>
 [[nodiscard]] Argument parsed(std::string names, std::string value, Target& target, std::optional<Value> (*parse)(std::string_view),
                               std::string expected, std::string description) {
@@ -163,7 +164,7 @@ template <class Target, class Value>
 
 inline constexpr std::uint64_t most_threads = 1024;
 
-// --- the options about files of other programs, for every command that takes a scene. They change nothing of a .scene file.
+// --- options about files of other programs, for every command that takes a scene; they have no effect on a .scene file
 
 [[nodiscard]] inline Argument lamp_argument(std::vector<Lamp>& lamps) {
   const auto take = [&lamps](const std::string& text) {
@@ -176,7 +177,7 @@ inline constexpr std::uint64_t most_threads = 1024;
           Argument::Values::repeated};
 }
 
-// The arguments of a command, and these behind them.
+// The arguments of a command, followed by these.
 [[nodiscard]] inline std::vector<Argument> with_model_arguments(std::vector<Argument> arguments, ModelOptions& options) {
   arguments.push_back(lamp_argument(options.lamps));
   arguments.push_back(flag("--two-sided", options.two_sided, "of such a file: surfaces that enclose nothing reflect on both sides"));
@@ -192,7 +193,7 @@ inline constexpr std::uint64_t most_threads = 1024;
   return arguments;
 }
 
-// `--help` and `--version` are answered; what is wrong with the command line is said in one sentence.
+// Answers `--help` and `--version`; reports an error in the command line in one sentence.
 [[nodiscard]] ExitCode run_program(const std::vector<Command>& commands, int argc, char** argv);
 
 }  // namespace apps

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The one file that knows CLI11. What is wrong with a command line is told in one sentence: an unknown word with the nearest that is
-// known, an option without its value.
+// The only file that uses CLI11. An error in the command line is reported in one sentence: an unknown word with the nearest known one, an
+// option without its value.
 #include "apps/commands/command.hpp"
 
 #include <filesystem>
@@ -26,7 +26,7 @@ std::vector<std::string> command_names(const CLI::App& app) {
 
 bool is_option(std::string_view argument) { return argument.size() > 1 && argument.starts_with("-"); }
 
-// Without a command nothing else can be judged.
+// Reports a missing or unknown command; without one, nothing else can be checked.
 std::string no_command(const CLI::App& app, std::span<const char* const> arguments) {
   const std::vector<std::string> names = command_names(app);
   const std::vector<std::string_view> views(names.begin(), names.end());
@@ -44,7 +44,7 @@ std::string no_command(const CLI::App& app, std::span<const char* const> argumen
   return "a command is missing" + all;
 }
 
-// Options and words that the command does not take.
+// Reports options and words that the command does not take.
 std::string not_expected(const CLI::App& command) {
   const std::vector<std::string> rest = command.remaining();
   std::vector<std::string> known, positional;
@@ -63,7 +63,7 @@ std::string not_expected(const CLI::App& command) {
          (positional.empty() ? "options alone" : joined(positional, " "));
 }
 
-// "--size" of "--size: 1 required WxH missing" and "--output is required".
+// The option named first: "--size" in "--size: 1 required WxH missing", "--output" in "--output is required".
 std::string subject(const std::string& sentence) { return sentence.substr(0, sentence.find_first_of(": ")); }
 
 std::string replaced(std::string text, std::string_view from, std::string_view to) {
@@ -107,7 +107,7 @@ std::string explain(const CLI::App& app, const CLI::ParseError& error, std::span
   return sentence_of(app, error, arguments) + "\n`halflight " + (used.empty() ? "" : used.front()->get_name() + " ") + "--help` says more.";
 }
 
-// An argument without a word in it, such as that of --json "" or --json=: no option takes it.
+// Reports an empty argument, such as in --json "" or --json=; no option accepts one.
 std::optional<std::string> empty_argument(std::span<const char* const> arguments) {
   std::string before = "the command";
   for (const std::string argument : arguments) {
@@ -126,7 +126,7 @@ void add(CLI::App& command, const Argument& argument) {
   }
   using Values = Argument::Values;
   CLI::Option* option = nullptr;
-  if (argument.values == Values::optional) {  // CLI11 checks no value that is not there
+  if (argument.values == Values::optional) {  // CLI11 does not validate a missing value
     option = command.add_option_function<std::string>(
         argument.names, [take = argument.take](const std::string& text) { static_cast<void>(take(text)); }, argument.description);
     option->expected(0, 1);

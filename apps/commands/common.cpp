@@ -37,14 +37,14 @@ std::optional<std::string> load_text(const std::string& path, ExitCode& code) {
 
 namespace {
 
-// Files that another one names lie beside it, or where their whole path says. Those that were read are noted in `read`.
+// Reads files named by another one, from its folder or by their absolute path. Files that were read are appended to `read`.
 SideFile beside(const std::string& path, std::vector<FileBeside>& read) {
   return [folder = std::filesystem::path(path).parent_path(), &read](const std::string& name,
                                                                      std::string& fault) -> std::optional<std::string> {
     const std::string whole = (folder / name).string();
     std::error_code unknown;
     const std::filesystem::file_status status = std::filesystem::status(whole, unknown);
-    if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {  // of a pipe nobody may write the other end
+    if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {  // a pipe, for example, might never be written to
       fault = "is no file";
       return std::nullopt;
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// halflight euler SCRIPT -o OUT.svg|OUT.html: plays a script of Euler operators and draws each step.
+// halflight euler SCRIPT -o OUT.svg|OUT.html: runs a script of Euler operators and draws each step.
 // halflight euler --interactive: reads the statements from the terminal.
 #include <cstdio>
 #include <filesystem>
@@ -24,7 +24,7 @@ struct EulerOptions {
   bool interactive = false;
 };
 
-constexpr std::size_t most_edges = 200000;  // in all pictures of a script: minutes of drawing, hundreds of megabytes
+constexpr std::size_t most_edges = 200000;  // in all pictures of a script; more would mean minutes of drawing and hundreds of megabytes
 
 bool ends_with(const std::string& path, std::string_view end) { return path.size() > end.size() && path.ends_with(end); }
 

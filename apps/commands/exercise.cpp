@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// halflight exercise N FILE: says what is still wrong with a student's solution, in a sentence.
+// halflight exercise N FILE: says in a sentence what is still wrong with a student's solution.
 #include <filesystem>
 #include <memory>
 

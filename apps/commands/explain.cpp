@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// halflight explain SCENE -o page.html: replays a solution; --text tells it.
+// halflight explain SCENE -o page.html: replays how a scene is solved; --text prints it as text.
 #include <filesystem>
 #include <memory>
 

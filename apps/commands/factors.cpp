@@ -35,7 +35,7 @@ using radiosity::Estimate;
 using radiosity::Factors;
 using radiosity::TotalExchange;
 
-// The total exchange factors of one channel, or of all when every surface is grey.
+// The total exchange factors of one channel, or of all channels if every surface is grey.
 struct Channel {
   std::string name;
   std::vector<double> emissivity;
@@ -53,7 +53,7 @@ double worst(const std::vector<radiosity::Estimate>& factors) {
   return error;
 }
 
-// What a surface does not reflect it absorbs, and emits (Kirchhoff 1860).
+// What a surface does not reflect it absorbs, so its emissivity is 1 - reflectance (Kirchhoff 1860).
 std::vector<Channel> total_exchange_of(const Factors& f, const radiosity::Scene& scene, std::string& refusal) {
   const auto reflectance = [&](const Factors::Surface& s) { return scene.materials[s.material].reflectance; };
   const bool grey =
@@ -74,9 +74,9 @@ std::vector<Channel> total_exchange_of(const Factors& f, const radiosity::Scene&
   return channels;
 }
 
-constexpr std::size_t widest = 10;  // columns that a terminal shows
+constexpr std::size_t widest = 10;  // number of columns that fit a terminal
 
-// A line a surface: its name, one number, the sum of its row with its error, and where it fits the row itself.
+// One line per surface: its name, one number, the sum of its row with its error, and the row itself if it fits.
 std::string matrix_text(const Factors& f, const std::string& corner, const char* column, const std::function<double(std::size_t)>& number,
                         const std::function<Estimate(std::size_t)>& row_sum, const std::vector<Estimate>& factor) {
   const std::size_t n = f.surfaces.size();
@@ -125,7 +125,7 @@ std::string summary(const Factors& f, const FactorsOptions& options, const radio
   return text + "time: " + formatted("%.3f", time.wall_seconds) + " s, CPU " + formatted("%.3f", time.cpu_seconds) + " s\n";
 }
 
-// One line a surface: what is said of it, its factors, then their errors. A name has no comma (examples/scenes/README.md).
+// One line per surface: its data, its factors, then their errors. Names contain no commas (examples/scenes/README.md).
 std::string csv_head(const Factors& f, std::string text) {
   for (const auto& s : f.surfaces) { text += "," + s.name; }
   for (const auto& s : f.surfaces) { text += "," + s.name + " error"; }
@@ -171,7 +171,7 @@ std::string json(const Factors& f, const std::vector<Channel>& channels, const F
     out.object("name", s.name, "area", s.area.value, "area_error", s.area.error, "row_sum", s.row_sum.value, "row_sum_error",
                s.row_sum.error);
   });
-  // A list a row of what `entry` finds for it and a column.
+  // Writes a matrix as a list of rows; entry(i) is the number with index i, row by row.
   const auto matrix = [&](const char* key, const auto& entry) {
     out.key(key).open_array();
     for (std::size_t i = 0; i < n; ++i) {

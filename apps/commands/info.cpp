@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// halflight info SCENE: what is in a scene, without solving it.
+// halflight info SCENE: says what a scene contains, without solving it.
 #include <algorithm>
 #include <memory>
 
@@ -43,7 +43,7 @@ std::string materials(const radiosity::Scene& scene) {
   return out + and_more(scene.materials.size(), longest_list);
 }
 
-// Sheets of which something is left.
+// The number of sheets of which at least one face is left.
 std::size_t surfaces(const radiosity::Prepared& prepared) {
   std::size_t count = 0;
   for (const radiosity::Surface& surface : prepared.surfaces) {
@@ -82,7 +82,7 @@ std::string cameras(const SceneFile& file) {
   return out + and_more(file.cameras.size(), longest_list);
 }
 
-// The plan of a run, before any light.
+// The plan of a run, before any light is computed.
 std::string plan(const radiosity::Scene& scene, const radiosity::Prepared& prepared) {
   const radiosity::Plan& plan = prepared.plan;
   const std::vector<radiosity::InputSurface> inputs = radiosity::surfaces(scene);

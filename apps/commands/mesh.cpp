@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// halflight mesh SCENE [-o OUT.obj]: the polygons of each object as the solver sees them before it refines (paper 4.1: the
-// approximation), with their counts, shells, genus, area and volume.
+// halflight mesh SCENE [-o OUT.obj]: the polygons of each object as the solver sees them before it refines them (paper 4.1: the
+// approximation), with counts, shells, genus, area and volume.
 //
-// What is written are the faces that give and receive light: a closed object is a closed mesh, a polygon is one face without its
-// black back. The numbers are those of the written mesh, so `halflight check OUT` finds the same ones. Vertices and faces of
-// different objects are never merged. Nothing is solved, and coordinates are those of the scene, unrounded.
+// It writes the faces that give and receive light: a closed object is a closed mesh, a polygon is one face without its black back. The
+// numbers are those of the written mesh, so `halflight check OUT` reports the same ones. Vertices and faces of different objects are
+// never merged. Nothing is solved, and the coordinates are those of the scene, not rounded.
 #include <algorithm>
 #include <memory>
 #include <optional>
@@ -36,14 +36,14 @@ struct MeshOptions {
   ModelOptions model;
   std::string scene;
   std::string output;               // empty: none
-  std::optional<std::string> json;  // empty: standard output, in place of the text
+  std::optional<std::string> json;  // empty: standard output, instead of the text
 };
 
 struct Measure {
   std::size_t vertices = 0, edges = 0, faces = 0, shells = 0, borders = 0;
   long genus = 0;
   double area = 0.0;
-  std::optional<double> volume;  // of the closed shells; nothing when there is none
+  std::optional<double> volume;  // of the closed shells; nothing if there is none
 
   Measure& operator+=(const Measure& other) {
     vertices += other.vertices, edges += other.edges, faces += other.faces, shells += other.shells, borders += other.borders;
@@ -55,7 +55,7 @@ struct Measure {
   [[nodiscard]] long euler() const { return static_cast<long>(vertices) - static_cast<long>(edges) + static_cast<long>(faces); }
 };
 
-// The faces of a surface that belong to a sheet, and the vertices that they use.
+// The faces of a surface that belong to a sheet, and their vertices.
 brep::Builder radiating(const radiosity::Surface& surface) {
   brep::Builder out;
   const radiosity::SurfaceBRep& brep = surface.brep;
@@ -101,8 +101,8 @@ void append(brep::Builder& out, const brep::Builder& part) {
 
 struct SceneMesh {
   brep::Builder builder;
-  std::vector<MeshGroup> groups;  // one an object
-  std::vector<Measure> measures;  // one an object
+  std::vector<MeshGroup> groups;  // one per object
+  std::vector<Measure> measures;  // one per object
   Measure total;
 };
 

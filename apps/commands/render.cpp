@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // halflight render SCENE [-o OUT.png] [-o OUT.ply] ...: solves a scene, writes pictures and meshes, prints the report.
 //
-// What can be known to fail is refused before the solver starts: extensions, folders, the camera's name. Outputs are
-// encoded in memory and then replace their files one by one, each whole (files.hpp).
+// Foreseeable failures are reported before the solver starts: wrong extensions, missing folders, an unknown camera. Outputs are
+// encoded in memory; then each replaces its file completely (files.hpp).
 #include <algorithm>
 #include <memory>
 
@@ -45,7 +45,7 @@ std::vector<std::string> all_outputs(const RenderOptions& options) {
   return paths;
 }
 
-// Outputs that cannot become files are refused before any work.
+// Refuses outputs that cannot be written, and options that have no effect, before any work.
 ExitCode check(const RenderOptions& options) {
   for (const std::string& path : options.outputs) {
     if (!render_format(path)) {
@@ -98,13 +98,13 @@ ExitCode report_failure(const radiosity::Failure& failure, const std::string& sc
   return ExitCode::invalid_input;
 }
 
-// What --memory leaves for the run: less what the program and the scene hold now. The picture is drawn when the run holds its solution
-// alone, a third of its peak at most.
+// The part of --memory that is left for the run, after what the program and the scene hold now. When the picture is drawn, the run holds
+// only its solution, which is at most a third of its peak.
 std::optional<std::uint64_t> memory_left(const RenderOptions& options, const radiosity::Camera& camera) {
-  constexpr std::uint64_t unread = 4'000'000;  // of the program itself: parts that are read only when they are run
+  constexpr std::uint64_t unread = 4'000'000;  // parts of the program itself that are loaded only when they are executed
   const std::uint64_t held = resident_memory().value_or(0) + unread;
   const radiosity::PictureSize size = options.size.value_or(camera.size.value_or(radiosity::PictureSize{}));
-  constexpr std::uint64_t band = 20'000'000, pixel = 60;  // of samples; of colours and their coded form
+  constexpr std::uint64_t band = 20'000'000, pixel = 60;  // bytes: for samples; per pixel, for colours and their encoded form
   const std::uint64_t picture = has_picture(options) ? band + pixel * size.width * size.height : 0;
   if (held + picture >= *options.memory) {
     complain("--memory allows " + radiosity::memory_text(*options.memory) + ", but the program and the scene hold " +
@@ -124,11 +124,11 @@ ExitCode write_all(const std::vector<RenderOutput>& outputs) {
   return ExitCode::ok;
 }
 
-// The scene of a .light file: the one that is named, or else the one that the file holds.
+// The scene for a .light file: the one named on the command line, or else the one in the file.
 std::optional<SceneFile> scene_of_light(const RenderOptions& options, const std::string& bytes, ExitCode& code) {
   if (!options.scene.empty()) {
     ModelOptions model = options.model;
-    model.camera.reset();  // it looks at the scene as it was solved
+    model.camera.reset();  // the camera must not change the scene that was solved
     return load_scene(options.scene, all_outputs(options), code, model);
   }
   std::string reason;
@@ -138,7 +138,7 @@ std::optional<SceneFile> scene_of_light(const RenderOptions& options, const std:
   return std::nullopt;
 }
 
-// Pictures from a solution that was kept.
+// Draws pictures from a stored solution.
 ExitCode draw_light(const RenderOptions& options, const radiosity::Control& control) {
   ExitCode code = ExitCode::ok;
   const auto bytes = load_text(options.light, code);
@@ -164,7 +164,7 @@ ExitCode draw_light(const RenderOptions& options, const radiosity::Control& cont
   return print(text, options.outputs) ? ExitCode::ok : ExitCode::failure;
 }
 
-// What is asked for of a solution, and the report.
+// Writes the outputs of a solution and the report.
 ExitCode write_solution(Artist& artist, const radiosity::Solution& solution, const radiosity::Options& settings,
                         const radiosity::Control& control, Progress& progress) {
   const RenderOptions& options = artist.options();
@@ -232,7 +232,8 @@ ExitCode run(const RenderOptions& options) {
     control.viewpoint = artist.viewpoint();
   }
   const radiosity::Outcome outcome = radiosity::solve(file->scene, settings, control);
-  if (outcome.solution && outcome.solution->audit.interrupted) { control = control.unstoppable(); }  // the best so far is drawn and written
+  // The best solution so far is still drawn and written.
+  if (outcome.solution && outcome.solution->audit.interrupted) { control = control.unstoppable(); }
   progress.done();
   if (!outcome.solution) { return report_failure(outcome.failure, options.scene); }
 

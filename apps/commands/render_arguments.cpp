@@ -26,7 +26,7 @@ std::optional<radiosity::PictureSize> parse_size(std::string_view text) {
   return fits(width) && fits(height) ? std::optional(radiosity::PictureSize{*width, *height}) : std::nullopt;
 }
 
-// What is written.
+// Options about the outputs.
 std::vector<Argument> output_arguments(RenderOptions& options) {
   return {
       text("scene", "SCENE", options.scene, scene_description()),
@@ -49,10 +49,10 @@ std::vector<Argument> output_arguments(RenderOptions& options) {
   };
 }
 
-// How far the solution is refined.
+// Options about the refinement of the solution.
 std::vector<Argument> refinement_arguments(RenderOptions& options) {
   radiosity::Options& solver = options.solver;
-  // BF-refinement is asked for by what ends it.
+  // An argument that limits BF-refinement also selects it.
   const auto bf = [&solver](Argument argument) {
     argument.take = [&solver, keep = argument.take](const std::string& text) {
       solver.refinement = radiosity::Refinement::a_posteriori;
@@ -60,7 +60,7 @@ std::vector<Argument> refinement_arguments(RenderOptions& options) {
     };
     return argument;
   };
-  const std::vector<std::string> ends{"--error", "--target", "--time"};  // of the refinement: one at most
+  const std::vector<std::string> ends{"--error", "--target", "--time"};  // the refinement ends by at most one of these
   return {
       above_zero("--error", solver.error, 1.0,
                  "refine until the measured relative L2 error is at most this; out of reach, that is at 10 million links, the work "
@@ -111,7 +111,7 @@ Argument camera_argument(RenderOptions& options) {
           take};
 }
 
-// How pictures are drawn.
+// Options about the drawing of pictures.
 std::vector<Argument> picture_arguments(RenderOptions& options) {
   return {
       camera_argument(options),
@@ -129,7 +129,7 @@ std::vector<Argument> picture_arguments(RenderOptions& options) {
   };
 }
 
-// How the solution is found and told.
+// Options about the solver and its messages.
 std::vector<Argument> solver_arguments(RenderOptions& options) {
   radiosity::Options& solver = options.solver;
   using radiosity::Indirect, radiosity::Reconstruction, radiosity::Solver;

@@ -35,7 +35,7 @@ std::string encoded(const radiosity::Picture& picture, RenderFormat format, cons
   return format == RenderFormat::png ? to_png(picture, tone) : format == RenderFormat::hdr ? to_hdr(picture) : to_pfm(picture);
 }
 
-// The mesh that is exported, with its lightmap among the outputs when one is asked for.
+// The mesh to export; also appends its lightmap to the outputs if one is requested.
 std::optional<ExportMesh> exported_mesh(const RenderOptions& options, const SceneFile& file, const radiosity::Solution& solution,
                                         const radiosity::Tone& tone, std::vector<RenderOutput>& outputs, Report& report) {
   std::optional<ExportMesh> mesh = options.onto_input
@@ -54,8 +54,8 @@ std::optional<ExportMesh> exported_mesh(const RenderOptions& options, const Scen
   return mesh;
 }
 
-// Of a picture that is black all over: how much of it meets backs of surfaces, dark surfaces or nothing, and what to try. Empty where some
-// pixel sees more than 1e-9 of the radiosity of the brightest lamp.
+// For a picture that is completely black: says how much of it shows backs of surfaces, dark surfaces or nothing, and what to try. Empty
+// if some pixel sees more than 1e-9 of the radiosity of the brightest lamp.
 std::string warning_of_dark_picture(const radiosity::Picture& picture, const SceneFile& file, const radiosity::View& view) {
   double most = 0.0;
   for (const radiosity::Material& material : file.scene.materials) { most = std::max(most, radiosity::brightest(material.emission)); }
@@ -79,7 +79,7 @@ std::string warning_of_dark_picture(const radiosity::Picture& picture, const Sce
   return text;
 }
 
-// The line below the title of a page: how large and how wrong the solution is.
+// The line below the title of a page: the size and the error of the solution.
 std::string summary(const radiosity::Solution& solution) {
   const radiosity::Audit& audit = solution.audit;
   const std::string size = std::to_string(audit.leaves) + " patches of " + std::to_string(audit.polygons) + " input faces";
@@ -170,7 +170,7 @@ std::vector<RenderOutput> encode(const RenderOptions& options, const radiosity::
 
 namespace {
 
-// The picture, with its time and error in the report. Nothing when interrupted.
+// Draws the picture, and enters its time and error in the report. Nothing if interrupted.
 std::optional<radiosity::Picture> drawn(Artist& artist, const radiosity::Solution& solution, const radiosity::Tone& tone,
                                         const radiosity::Control& control, Report& report) {
   const RenderOptions& options = artist.options();
@@ -188,7 +188,7 @@ std::optional<radiosity::Picture> drawn(Artist& artist, const radiosity::Solutio
     const radiosity::AuditGoal goal = radiosity::goal_to_know(report.audit, options.solver.audit_points, artist.worth(report.audit));
     report.audit.picture_error = artist.audit(*picture, tone, goal, control);
     watch.lap("picture audit");
-    report.audit.interrupted = report.audit.interrupted || control.cancelled();  // the picture is complete, its error not measured
+    report.audit.interrupted = report.audit.interrupted || control.cancelled();  // the picture is complete, but its error is not measured
   }
   leave_out_others(stages);
   report.picture_time = stages.front();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// What `halflight render` is asked for, and what it writes: the picture, drawn and audited, the mesh, and the report.
+// The options of `halflight render`, and its outputs: the picture, drawn and audited, the mesh, and the report.
 
 #include <cstdint>
 #include <optional>
@@ -22,17 +22,17 @@ namespace apps {
 
 struct Argument;
 
-// By measurement: what a picture in gathered light needs of the solution.
+// By measurement: the accuracy of the solution that suffices for a picture in gathered light.
 inline constexpr double gathered_epsilon = 0.01, gathered_min_area = 2e-4;
 
 enum class ErrorOf { picture, surfaces };
 
-// As it was asked for.
+// The exposure as given on the command line.
 struct Exposure {
   double factor = 1.0;
-  bool of_automatic = false;  // times the automatic one
+  bool of_automatic = false;  // is the factor relative to the automatic exposure?
 
-  // A factor above 0, or stops (powers of two) from the automatic exposure, such as 1ev or -0.5ev.
+  // Parses a factor above 0, or stops (powers of two) relative to the automatic exposure, such as 1ev or -0.5ev.
   [[nodiscard]] static std::optional<Exposure> parse(std::string_view text);
 };
 
@@ -40,32 +40,32 @@ struct RenderOptions {
   std::string scene;
   ModelOptions model;
   std::vector<std::string> outputs;  // pictures and meshes, by their endings
-  bool onto_input = false;           // exported: the user's polygons, not those of the solution
-  std::string light;                 // a .light file that is drawn instead of a new solution; empty: none
-  std::string lightmap;              // of what is exported; empty: none
-  std::optional<double> texel;       // of the lightmap, metres
+  bool onto_input = false;           // is the mesh of the input file exported instead of that of the solution?
+  std::string light;                 // a .light file to draw instead of a new solution; empty: none
+  std::string lightmap;              // of the exported mesh; empty: none
+  std::optional<double> texel;       // edge length of a texel of the lightmap, metres
   std::string json;                  // empty: none
-  std::string camera;                // empty: the first of the file, or the automatic one
+  std::string camera;                // empty: the first one of the file, or the automatic one
   std::optional<radiosity::PictureSize> size;
   std::optional<Exposure> exposure;
   radiosity::ToneCurve tone = radiosity::ToneCurve::linear;
   PictureMethod method = PictureMethod::gather;
-  std::optional<double> epsilon, min_area;  // default: what suits the outputs
+  std::optional<double> epsilon, min_area;  // default: depends on the outputs
   bool quiet = false;
-  std::optional<ErrorOf> error_of;      // default: of the picture when there is one
-  std::optional<std::uint64_t> memory;  // bytes that the process may hold
+  std::optional<ErrorOf> error_of;      // default: picture if there is one, else surfaces
+  std::optional<std::uint64_t> memory;  // bytes that the process may use
   radiosity::Options solver;
 };
 
-// What each option of `halflight render` is, and where its value goes.
+// The arguments of `halflight render`, which store their values in `options`.
 [[nodiscard]] std::vector<Argument> render_arguments(RenderOptions& options);
 
 enum class RenderFormat { png, hdr, pfm, light, ply, html, exported };
 
-// By the ending of the name.
+// The format, by the ending of the name.
 [[nodiscard]] std::optional<RenderFormat> render_format(const std::string& path);
 
-// Does the name end as those of pictures do: .png, .hdr or .pfm?
+// Does the name end like that of a picture: with .png, .hdr or .pfm?
 [[nodiscard]] bool is_picture(const std::string& path);
 
 // ".png, .ply, ... or .html"
@@ -73,11 +73,11 @@ enum class RenderFormat { png, hdr, pfm, light, ply, html, exported };
 
 [[nodiscard]] bool has_picture(const RenderOptions& options);
 
-// The solution's settings as they are asked for. What is seen in gathered light alone is solved coarser: direct light is found anew,
-// and what the mesh smears is averaged over all that a point sees, so that time does more for the picture than for the mesh.
+// The settings of the solution. If only gathered light is seen, the solution is coarser: direct light is recomputed, and errors of the
+// mesh are averaged over all that a point sees, so the time is better spent on the picture than on the mesh.
 [[nodiscard]] radiosity::Options solver_options(const RenderOptions& options);
 
-// Draws a solution as it will be shown, and audits what it has drawn.
+// Draws a solution as it will be shown, and measures the error of the picture.
 class Artist {
  public:
   Artist(const RenderOptions& options, const SceneFile& file, const radiosity::Camera& camera)
@@ -95,9 +95,9 @@ class Artist {
   [[nodiscard]] radiosity::Viewpoint viewpoint() const {
     return {view_.eye, [view = view_](const glm::dvec3& p, const glm::dvec3& n) { return view.share(p, n); }, view_.pixel_area()};
   }
-  // About what the picture took (audit_effort.hpp).
+  // The effort that went into the picture, in rays (audit_effort.hpp).
   [[nodiscard]] std::uint64_t worth(const radiosity::Audit& audit) const;
-  // Nothing when interrupted.
+  // Nothing if interrupted.
   [[nodiscard]] std::optional<radiosity::Picture> draw(const radiosity::Mesh& mesh, const radiosity::Frame& frame,
                                                        const radiosity::Tone& tone, const radiosity::Control& control) const;
   [[nodiscard]] std::optional<radiosity::PictureError> audit(const radiosity::Picture& picture, const radiosity::Tone& tone,
@@ -117,11 +117,11 @@ struct RenderOutput {
   std::string bytes;
 };
 
-// The picture in each format that is asked for.
+// The picture in each requested format.
 [[nodiscard]] std::vector<RenderOutput> encode(const RenderOptions& options, const radiosity::Picture& picture,
                                                const radiosity::Tone& tone);
 
-// Everything that is to be written, in memory; the report is completed. Nothing when interrupted.
+// All outputs, in memory; also completes the report. Nothing if interrupted.
 [[nodiscard]] std::optional<std::vector<RenderOutput>> encode(Artist& artist, const radiosity::Solution& solution,
                                                               const radiosity::Control& control, Report& report);
 

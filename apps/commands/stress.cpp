@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// halflight stress [CASE...]: stiff and extreme scenes, each figure against its bound; exit code 1 when one fails.
+// halflight stress [CASE...]: solves stiff and extreme scenes and compares each figure with its bound; exit code 1 if one fails.
 #include <algorithm>
 #include <cstdio>
 #include <ctime>
@@ -27,7 +27,7 @@ using stress::Findings;
 
 const char* sign(Figure::Bound kind) { return kind == Figure::Bound::at_most ? "<= " : kind == Figure::Bound::at_least ? ">= " : "=  "; }
 
-// What was done, from what happened.
+// How many scenes were solved, warned about and refused.
 std::string done(const Findings& findings) {
   const auto count = [](std::size_t n, const char* what) { return n == 0 ? std::string{} : std::to_string(n) + " " + what; };
   return joined(std::vector{count(findings.solved(), findings.solved() == 1 ? "scene solved" : "scenes solved"),
@@ -56,7 +56,7 @@ void write(JsonWriter& json, const Case& which, const Findings& findings) {
   json.close();
 }
 
-// The cases named, in their own order and each once; every name that is none is complained of.
+// The named cases, in the order of the list and each once; complains about every unknown name.
 std::vector<const Case*> choose(const std::vector<std::string>& names, bool& known) {
   std::vector<const Case*> chosen;
   for (const Case& c : stress::cases()) {
@@ -101,7 +101,8 @@ ExitCode run(const StressOptions& options) {
   if (!options.json.empty() && !save(options.json, json.text())) { return ExitCode::failure; }
   const std::string total = std::to_string(chosen.size()) + " cases, " + std::to_string(figures) + " figures: ";
   if (!print(total + (failed.empty() ? "all hold" : "FAILED: " + joined(failed)) + "\n", outputs)) { return ExitCode::failure; }
-  std::fprintf(stderr, "CPU time %.1f s\n", static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC);  // stdout is the same every time
+  // The time goes to stderr, so that stdout is the same in every run.
+  std::fprintf(stderr, "CPU time %.1f s\n", static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC);
   return failed.empty() ? ExitCode::ok : ExitCode::failure;
 }
 

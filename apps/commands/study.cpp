@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// halflight study SCENE... -o DIR: error against time, memory and links for every method, measured on each scene.
+// halflight study SCENE... -o DIR: measures error against time, memory and links for every method on each scene.
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
@@ -34,12 +34,12 @@ struct StudyOptions {
   std::string folder;
   std::optional<study::PartNumber> part;
   double seconds = 12.0;       // CPU time of one run
-  std::uint64_t paths = 8192;  // a point of the reference
-  std::uint32_t dense = 3000;  // leaves up to which the parts of an error are told apart
+  std::uint64_t paths = 8192;  // per point of the reference
+  std::uint32_t dense = 3000;  // up to this number of leaves, the parts of an error are computed separately
   bool quick = false;
   bool quiet = false;
   unsigned threads = 0;
-  std::optional<std::uint64_t> memory;  // bytes that a run may take
+  std::optional<std::uint64_t> memory;  // bytes that a run may use
 };
 
 namespace fs = std::filesystem;
@@ -69,7 +69,7 @@ std::string compiler() {
 #endif
 }
 
-// The first comment of the text, without its mark: what the scene says of itself.
+// The first comment of the text, without its mark: the scene's description of itself.
 std::string title_of(const std::string& text) {
   const std::size_t mark = text.find_first_not_of(" \t\r\n");
   if (mark == std::string::npos || text[mark] != '#') { return {}; }
@@ -78,7 +78,7 @@ std::string title_of(const std::string& text) {
   return first < end ? text.substr(first, text.find_last_not_of(" \t\r", end - 1) + 1 - first) : std::string();
 }
 
-// What every study writes. The names of its pictures are known when it is done.
+// The files that every study writes. The names of its pictures are known only at the end.
 std::vector<std::string> known_files(const StudyOptions& options) {
   std::vector<std::string> names{"index.html", "results.csv", "results.json"};
   if (options.part) { names = {study::part_file(*options.part)}; }
@@ -87,7 +87,7 @@ std::vector<std::string> known_files(const StudyOptions& options) {
   return names;
 }
 
-// One scene; nothing when there is nothing to show of it. `code` says why.
+// Studies one scene; nothing if there is no result. `code` gives the reason.
 std::optional<study::SceneStudy> study_scene(const std::string& path, const StudyOptions& options,
                                              const std::vector<study::MethodPlan>& methods, const radiosity::Control& control,
                                              Progress& progress, ExitCode& code) {
@@ -104,7 +104,7 @@ std::optional<study::SceneStudy> study_scene(const std::string& path, const Stud
   reference.threads = options.threads;
   const std::string name = result.scene + ".reference.json";
   const std::vector<std::string> caches{(fs::path(path).parent_path() / name).string(), (fs::path(options.folder) / name).string()};
-  // A file of another program, those beside it, and what the command line says about them, are the scene together.
+  // For a file of another program, the scene also depends on the files beside it and on the options of the command line.
   std::string known = *text;
   if (!file->notes.empty()) {
     known += options.model.key();
@@ -137,7 +137,7 @@ std::optional<study::SceneStudy> study_scene(const std::string& path, const Stud
   return result.methods.empty() ? std::nullopt : std::optional(std::move(result));
 }
 
-// The page and all tables. `inputs` are not overwritten.
+// Writes the page and all tables, but refuses to overwrite `inputs`.
 ExitCode write(const study::Study& study, const std::string& folder, const std::vector<std::string>& inputs) {
   std::vector<std::string> files = study::page_files(study);
   for (std::string& name : files) { name = (fs::path(folder) / name).string(); }
@@ -148,7 +148,7 @@ ExitCode write(const study::Study& study, const std::string& folder, const std::
   return print(text) ? ExitCode::ok : ExitCode::failure;
 }
 
-// Puts the parts together that lie in the folders.
+// Combines the parts of a study that are in the folders.
 ExitCode merge(const StudyOptions& options) {
   std::vector<std::string> paths;
   for (const std::string& folder : options.merge) {
@@ -173,7 +173,7 @@ ExitCode merge(const StudyOptions& options) {
   return write(*merged.study, options.folder, {});
 }
 
-// What the parts of one study must agree in.
+// The settings in which all parts of one study must agree.
 std::string asked(const StudyOptions& options) {
   std::string text = version;
   for (const std::string& scene : options.scenes) { text += "\n" + fs::path(scene).stem().string(); }
@@ -181,7 +181,7 @@ std::string asked(const StudyOptions& options) {
          " " + std::to_string(options.memory.value_or(0));
 }
 
-// Two scenes of one name would write the same files.
+// Refuses scenes of the same name, which would write the same files.
 ExitCode check_names(const std::vector<std::string>& scenes) {
   for (std::size_t i = 0; i < scenes.size(); ++i) {
     for (std::size_t k = 0; k < i; ++k) {
@@ -193,7 +193,7 @@ ExitCode check_names(const std::vector<std::string>& scenes) {
   return ExitCode::ok;
 }
 
-// Measures what is this part's of each scene, until it is interrupted, or one has read a file that the study would write.
+// Measures this part's share of every scene, until it is interrupted or a scene has read a file that the study would write.
 study::Part measure(const StudyOptions& options, const radiosity::Control& control, Progress& progress, ExitCode& code) {
   const std::vector<study::MethodPlan> methods = study::methods({options.threads, 1, options.memory});
   study::Part part{options.part.value_or(study::PartNumber{}), asked(options), options.scenes.size(), methods.size(), {}, {}, {}};
@@ -242,7 +242,7 @@ ExitCode run(const StudyOptions& given) {
     code = ExitCode::failure;
   }
   if (options.part) {
-    if (code != ExitCode::ok) { return code; }  // half a part must not look like a whole one
+    if (code != ExitCode::ok) { return code; }  // half a part must not be mistaken for a whole one
     const std::string path = (fs::path(options.folder) / study::part_file(part.number)).string();
     return save(path, study::to_bytes(part)) && print("written: " + path + "\n") ? ExitCode::ok : ExitCode::failure;
   }

@@ -23,7 +23,7 @@ std::uint32_t inner_point(const PlanarMap& map, std::uint32_t dart, std::size_t 
   return static_cast<std::uint32_t>(map.vertices.size() + dart / 2 * inner_points + along);
 }
 
-// All points that the walk around a face passes, in order.
+// All points on the walk around a face, in order.
 std::vector<std::uint32_t> points_around(const PlanarMap& map, std::uint32_t face) {
   std::vector<std::uint32_t> points;
   for (const std::uint32_t d : map.faces[face]) {
@@ -33,11 +33,12 @@ std::vector<std::uint32_t> points_around(const PlanarMap& map, std::uint32_t fac
   return points;
 }
 
-// Rest shapes are in units of the distance of neighbouring points on an edge: strips of this width run along both sides of edges.
+// Rest shapes use the distance of neighbouring points on an edge as unit. Strips of this width run along both sides of edges.
 constexpr double strip = 0.9;
 
-// A part that hangs in a face by one vertex is pulled out by few links and held together by many. That the weights fall by this factor from
-// face to face makes up for it, else each level of nested loops would be a hundred times smaller than the one around it.
+// A part that is attached to the boundary of its face by a single vertex is pulled outwards by few links and inwards by many. Weights
+// that fall by this factor from face to face compensate for this; otherwise each level of nested loops would be a hundred times smaller
+// than the one around it.
 constexpr double softer = 0.03;
 
 struct Builder {
@@ -51,7 +52,7 @@ struct Builder {
   }
 };
 
-// How many edges lie between each face and the outer one.
+// For each face, the number of edges between it and the outer face.
 std::vector<int> depths(const PlanarMap& map, std::uint32_t outer) {
   std::vector<int> depth(map.faces.size(), -1);
   std::vector<std::uint32_t> reached{outer};
@@ -83,7 +84,8 @@ Net triangulate(const PlanarMap& map, std::uint32_t outer) {
     const double height = std::max(1.0, n / (2.0 * std::numbers::pi) - strip);  // of the triangles at the centre
     for (std::uint32_t i = 0; i < n; ++i) {
       const std::uint32_t j = (i + 1) % n;
-      const double step = map.edges[map.faces[face][i / (inner_points + 1)] / 2].stub ? 1.6 : 1.0;  // stubs have labels of both halves
+      // Stubs carry the labels of both half-edges.
+      const double step = map.edges[map.faces[face][i / (inner_points + 1)] / 2].stub ? 1.6 : 1.0;
       if (i % (inner_points + 1) < (inner_points + 1) / 2) {  // diagonals from the ends of an edge: mirror images of each other
         builder.triangle(p[i], p[j], ring + j, {0, 0}, {step, 0}, {step, strip});
         builder.triangle(p[i], ring + j, ring + i, {0, 0}, {step, strip}, {0, strip});
@@ -101,7 +103,7 @@ Net triangulate(const PlanarMap& map, std::uint32_t outer) {
   for (const Triangle& t : net.triangles) {
     for (const auto& [a, b] :
          {std::pair(t.corner[0], t.corner[1]), std::pair(t.corner[1], t.corner[2]), std::pair(t.corner[2], t.corner[0])}) {
-      net.links.push_back({a, b, t.pull});  // twice where two triangles meet
+      net.links.push_back({a, b, t.pull});  // twice for an edge of two triangles
     }
   }
   for (std::uint32_t d = 0; d < map.darts.size(); d += 2) {
@@ -114,9 +116,9 @@ Net triangulate(const PlanarMap& map, std::uint32_t outer) {
   return net;
 }
 
-// Places each free point at the weighted mean of its neighbours. Points are eliminated one by one, those with few neighbours first;
-// each leaves its neighbours linked to each other (the star-mesh transform of electrical networks). Only positive numbers are
-// added and multiplied, so even parts that come out a million times smaller than the disc are exact to rounding.
+// Places each free point at the weighted mean of its neighbours. Points are eliminated one by one, those with few neighbours first; the
+// elimination links the neighbours with each other (the star-mesh transform of electrical networks). Only positive numbers are added and
+// multiplied, so there is no cancellation, and even parts a million times smaller than the disc are exact to rounding.
 void solve(const Net& net, const std::vector<bool>& fixed, std::vector<Point>& x) {
   struct Neighbour {
     std::uint32_t point;
@@ -174,7 +176,7 @@ std::optional<Embedding> embed(const PlanarMap& map, std::uint32_t outer, double
   const Net net = triangulate(map, outer);
   std::vector<Point> x(net.count, Point(0.0));
   std::vector<bool> fixed(net.count, false);
-  // The corners on the unit circle; from three to eight, the points between them on straight lines, else on the circle too.
+  // The corners lie on the unit circle. With three to eight corners the points between them lie on straight lines, else on the circle too.
   const std::size_t corners = map.faces[outer].size(), along = inner_points + 1;
   const bool polygon = corners >= 3 && corners <= 8;
   const double turn = 2.0 * std::numbers::pi / static_cast<double>(corners);

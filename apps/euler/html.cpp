@@ -14,7 +14,7 @@
 namespace apps::euler {
 namespace {
 
-// "0 2 1 0 0;1 ...": a row for each living element.
+// "0 2 1 0 0;1 ...": a row for each living half-edge: its index, next, prev, vertex and face.
 std::string halfedge_rows(const Records& records) {
   std::string rows;
   for (std::size_t i = 0; i < records.halfedges.size(); ++i) {

@@ -33,14 +33,14 @@ constexpr const char* more_help =
     "             show (all records), face f1, vertex v2 (the walk around it), save FILE (the steps as a script), help, quit\n"
     "keys         Tab completes, the arrows bring back earlier lines\n";
 
-// Words that a line may begin with.
+// Words with which a line may begin.
 std::vector<std::string> commands() {
   std::vector<std::string> words = statement_words();
   for (const char* const word : {"show", "face", "vertex", "save", "help", "quit"}) { words.emplace_back(word); }
   return words;
 }
 
-// The operators with their arguments, what must hold of these, and the textbook names, which are understood as well.
+// Lists the operators with their arguments, their preconditions and their textbook names, which are accepted as well.
 std::string help() {
   std::string out;
   for (const brep::OperatorForm& row : brep::operator_forms) {
@@ -88,7 +88,7 @@ class Conversation {
     layout_ = lay_out(teller_.story().frames.back().drawn, {}, smallest);
   }
 
-  // False: the end.
+  // False at the end of the conversation.
   bool take(const std::string& line, std::uint32_t number) {
     const std::size_t begin = line.find_first_not_of(" \t"), end = line.find_last_not_of(" \t\r");
     const std::string text = begin == std::string::npos ? "" : line.substr(begin, end - begin + 1);
@@ -110,7 +110,7 @@ class Conversation {
     return true;
   }
   [[nodiscard]] ExitCode code() const { return code_; }
-  // What Tab may complete: commands, and all that is there.
+  // Words that Tab can complete: commands, functions, and the names that earlier statements have given.
   [[nodiscard]] std::vector<std::string> words() const {
     std::vector<std::string> words = commands();
     for (const std::string_view function : brep::function_names) { words.emplace_back(function); }
@@ -124,7 +124,7 @@ class Conversation {
  private:
   static constexpr double smallest = 0.026;
 
-  // "face f1", "vertex v2".
+  // The element named by "face f1" or "vertex v2".
   [[nodiscard]] static std::optional<brep::Element> asked_walk(const std::string& text) {
     for (const char* const word : {"face f", "vertex v"}) {
       const std::string begin = word;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// A conversation: operators in, counts and refusals out. See examples/euler for the statements.
+// The interactive mode: reads operators, prints counts and refusals. See examples/euler for the statements.
 
 #include <cstddef>
 #include <functional>
@@ -13,8 +13,8 @@
 
 namespace apps::euler {
 
-// A line that is typed in a terminal: arrows, Home and End move, up and down bring back earlier lines, Tab completes a word. What keys do
-// is told apart from the terminal, so that it can be tested.
+// Edits a line typed in a terminal: arrow keys, Home and End move the cursor, up and down recall earlier lines, Tab completes a word.
+// Independent of the terminal, so that it can be tested.
 class LineEditor {
  public:
   explicit LineEditor(std::function<std::vector<std::string>()> words) : words_(std::move(words)) {}
@@ -24,9 +24,9 @@ class LineEditor {
   State take(char byte);
   [[nodiscard]] const std::string& line() const { return line_; }
   [[nodiscard]] std::size_t cursor() const { return cursor_; }
-  // The words that Tab could mean when there are several; empty again at the next key.
+  // The possible completions of a word after Tab if there are several; cleared by the next key.
   [[nodiscard]] const std::vector<std::string>& choices() const { return choices_; }
-  // Begins a new line; the old one is remembered.
+  // Begins a new line and adds the old one to the history.
   void next();
 
  private:
@@ -37,10 +37,10 @@ class LineEditor {
   std::function<std::vector<std::string>()> words_;
   std::vector<std::string> history_, choices_;
   std::string line_, escape_;
-  std::size_t cursor_ = 0, at_ = 0;  // at_: in the history
+  std::size_t cursor_ = 0, at_ = 0;  // at_: index in the history
 };
 
-// Reads lines from the terminal; nothing at its end.
+// Reads lines from the terminal; nothing at the end of input.
 class TerminalLines {
  public:
   TerminalLines(std::string prompt, std::function<std::vector<std::string>()> words)
@@ -52,8 +52,9 @@ class TerminalLines {
   LineEditor editor_;
 };
 
-// Reads lines from stdin until `quit` or the end. After each step every output is written anew: OUT.svg the present state, OUT.html
-// all steps so far. Bad lines and refusals are told and change nothing; the exit code is ok unless a file cannot be written.
+// Reads lines from stdin until `quit` or the end. After each step every output is rewritten: OUT.svg shows the present state, OUT.html
+// all steps so far. Invalid lines and refused operators are reported and change nothing; the exit code is ok unless a file cannot be
+// written.
 [[nodiscard]] ExitCode converse(const std::vector<std::string>& outputs);
 
 }  // namespace apps::euler

@@ -20,7 +20,7 @@ namespace {
 using Point = glm::dvec2;
 
 struct Before {
-  std::map<std::uint32_t, Point> vertices, edges;  // edges: the middle
+  std::map<std::uint32_t, Point> vertices, edges;  // edges: their midpoints
   std::set<std::uint32_t> outer;
   std::vector<bool> cut;
 };
@@ -43,9 +43,9 @@ Before look_back(const Layout& layout) {
   return before;
 }
 
-// The faces in the order in which they are tried as the outer one: that of the picture before, then the longest.
+// The faces in the order in which they are tried as outer face: first those of the previous picture, then those with the longest walks.
 std::vector<std::uint32_t> outer_faces(const PlanarMap& map, const Before& before) {
-  std::vector<std::pair<std::ptrdiff_t, std::ptrdiff_t>> rank;  // less is better
+  std::vector<std::pair<std::ptrdiff_t, std::ptrdiff_t>> rank;  // lower is better
   std::vector<std::uint32_t> order(map.faces.size());
   for (std::uint32_t i = 0; i < map.faces.size(); ++i) {
     const auto& walk = map.faces[i];
@@ -64,7 +64,7 @@ Point turned(const Point& p, double angle) {
   return {std::cos(angle) * p.x - std::sin(angle) * p.y, std::sin(angle) * p.x + std::cos(angle) * p.y};
 }
 
-// Turns the drawing by some number of corners, fills the square.
+// Turns the drawing by the best number of corners and scales it to fill the square.
 void settle(Embedding& drawing, const PlanarMap& map, std::size_t corners, const Before& before) {
   const auto each_point = [&](auto&& visit) {
     for (Point& p : drawing.vertices) { visit(p); }
@@ -72,7 +72,8 @@ void settle(Embedding& drawing, const PlanarMap& map, std::size_t corners, const
       for (Point& p : edge) { visit(p); }
     }
   };
-  // What both pictures have, then and now. The best turn has the largest sum of products with what was there, measured from its middle.
+  // Positions of elements in both pictures, now and before. The best rotation has the largest sum of scalar products of the two, where
+  // those of the previous picture are measured from their mean.
   std::vector<std::pair<Point, Point>> pairs;
   const auto pair = [&](const Point& p, const std::map<std::uint32_t, Point>& old, std::uint32_t name) {
     if (const auto found = old.find(name); found != old.end()) { pairs.emplace_back(p, found->second); }
@@ -113,7 +114,7 @@ bool cross(const std::vector<Point>& s, const std::vector<Point>& t) {
   return false;
 }
 
-// The lines of points do not cross; where their rounded forms do, both are rounded less, in the end not at all.
+// The polylines do not cross. If their rounded forms do, both are rounded less, finally not at all.
 void part(std::vector<Strand>& strands) {
   std::vector<std::vector<Point>> lines(strands.size());
   std::vector<bool> changed(strands.size(), true);
@@ -145,7 +146,8 @@ Panel draw(const PlanarMap& map, const Before& before, double smallest) {
   for (std::size_t i = 0; i < std::min(most_tries, order.size()) && !embedded; ++i) {
     outer = order[i];
     const std::size_t corners = map.faces[outer].size();
-    // A tree begins on the left. Three corners and more: a side below, the first corner left of it. Two: left and right. One: below.
+    // A tree begins on the left. With three or more corners a side is at the bottom, and the first corner is its left end. Two corners
+    // are left and right, one is at the bottom.
     const double first_corner = corners == 2 || map.faces.size() == 1 ? std::numbers::pi
                                 : corners == 1                        ? -0.5 * std::numbers::pi
                                                                       : std::numbers::pi * (-0.5 - 1.0 / static_cast<double>(corners));

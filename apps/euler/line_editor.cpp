@@ -13,7 +13,7 @@ namespace {
 
 bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_'; }
 
-// Without echo and line by line; as it was when this ends.
+// Switches off echo and line buffering of the terminal; the destructor restores the previous state.
 class RawTerminal {
  public:
   RawTerminal() {
@@ -63,7 +63,7 @@ LineEditor::State LineEditor::take(char byte) {
   return State::typing;
 }
 
-void LineEditor::escape(char byte) {  // ESC [ A and its like
+void LineEditor::escape(char byte) {  // parses ESC [ A and similar sequences
   escape_ += byte;
   if (byte == '[' || byte == 'O' || (byte >= '0' && byte <= '9')) { return; }
   const std::string key = escape_.substr(std::min<std::size_t>(2, escape_.size()));
@@ -92,7 +92,7 @@ void LineEditor::complete() {
     if (!word.empty() && known.starts_with(word)) { found.insert(known); }
   }
   if (found.empty()) { return; }
-  const std::string &first = *found.begin(), &last = *found.rbegin();  // what these two share, all share
+  const std::string &first = *found.begin(), &last = *found.rbegin();  // all words share what the first and the last have in common
   const auto common = static_cast<std::size_t>(std::mismatch(first.begin(), first.end(), last.begin(), last.end()).first - first.begin());
   const std::string more = first.substr(word.size(), common - word.size()) + (found.size() == 1 ? " " : "");
   line_.insert(cursor_, more);

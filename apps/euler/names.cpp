@@ -9,7 +9,7 @@ namespace apps::euler {
 namespace {
 
 using Point = glm::dvec2;
-constexpr int pieces = 6;  // of an arc, for distances
+constexpr int pieces = 6;  // segments per arc, for computing distances
 constexpr double edge_of_panel = 1.18;
 
 double distance(const Point& p, const Point& a, const Point& b) {
@@ -19,7 +19,7 @@ double distance(const Point& p, const Point& a, const Point& b) {
 }
 double side(const Point& p, const Point& a, const Point& b) { return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x); }
 
-// Shrinks while it covers another, down to what one can still read at a large scale; 0, not drawn, where even that finds no room.
+// Shrinks a name while it overlaps another one, to a size that is readable when magnified; to 0, not drawn, if even that does not fit.
 void shrink_until_free(const std::vector<NameBox>& taken, double smallest, std::size_t letters, const Point& at, double& size) {
   const auto covered = [&] {
     return std::any_of(taken.begin(), taken.end(), [box = name_box(at, letters, size)](const NameBox& other) { return cover(box, other); });
@@ -28,8 +28,8 @@ void shrink_until_free(const std::vector<NameBox>& taken, double smallest, std::
   if (covered()) { size = 0.0; }
 }
 
-// One face of the plane map, sampled. Where edges are cut open several faces of the shell meet in it; each run of darts with one
-// name on the walk owns the part that lies nearest to it.
+// One face of the plane map, sampled at points. Where edges are cut open, it may consist of several faces of the shell; each run of darts
+// on the walk that belong to one of these owns the part that is nearest to it.
 class Region {
  public:
   Region(const PlanarMap& map, const Panel& panel, std::uint32_t face, bool outer) : outer_(outer) {
@@ -76,7 +76,8 @@ class Region {
         }
         for (const VertexMark& v : panel.vertices) { room = std::min(room, glm::length(s.at - v.at) - panel.text); }
         for (const FaceLabel& l : panel.labels) { room = std::min(room, glm::length(s.at - l.at) - 0.8 * l.size); }
-        // Alone in the face: in the middle of it. Else near to what it names, once there is room enough.
+        // If the face is the only one here, its name is in the middle. Otherwise it is near its run of darts, provided there is
+        // enough room.
         const double value = whole() ? room : std::min(room, size) - 0.2 * glm::length(s.at - near);
         if (value > best + 1e-9) {
           best = value;
@@ -94,7 +95,7 @@ class Region {
   };
   struct Site {
     Point at;
-    double room;  // the distance from all lines
+    double room;  // distance from all lines
     std::size_t owner;
   };
 
@@ -122,7 +123,8 @@ class Region {
         for (std::size_t i = 0; i < points_.size(); ++i) {
           const Point a = points_[i], b = points_[(i + 1) % points_.size()];
           const double d = distance(p, a, b);
-          if (d < site.room - 1e-9 || (d < site.room + 1e-9 && side(p, a, b) > 0)) {  // both sides of a spur are equally near
+          // For a point equally near to both sides of a spur, the side it is on decides.
+          if (d < site.room - 1e-9 || (d < site.room + 1e-9 && side(p, a, b) > 0)) {
             site.room = d;
             site.owner = owner_[i];
           }
@@ -136,16 +138,16 @@ class Region {
   bool outer_;
   std::vector<Run> runs_;
   std::vector<Point> points_;
-  std::vector<std::size_t> owner_;  // the run of the piece from this point to the next
+  std::vector<std::size_t> owner_;  // by point: the run of the segment from this point to the next
   std::vector<Site> sites_;
 };
 
-// What is taken of the panel, and the least that a name of a half-edge has of the size that was wanted; 0 where one is not drawn.
+// The occupied areas of the panel, and the smallest ratio of a half-edge's name to its wanted size; 0 if one is not drawn.
 struct Crowd {
   std::vector<NameBox> taken;
   double least = 1.0;
 };
-// Places the names of the half-edges, at the size of text that the panel has. `rooms`: of the faces.
+// Places the names of the half-edges, with the panel's size of text. `rooms`: by face.
 Crowd name_halfedges(const PlanarMap& map, const std::vector<double>& rooms, std::uint32_t outer, double smallest, Panel& panel) {
   panel.gap = 0.36 * panel.text;
   Crowd crowd;
@@ -162,13 +164,14 @@ Crowd name_halfedges(const PlanarMap& map, const std::vector<double>& rooms, std
       const std::uint32_t face = map.darts[2 * i + k].face;
       s.sizes[k] = face == outer ? panel.text : std::clamp(0.34 * rooms[face], 0.75 * smallest, panel.text);
       const std::size_t letters = std::to_string(s.halfedge ^ k).size() + 1;
-      // Beside the middle; where that is taken, along the edge; where all is taken, smaller; where nothing helps, not at all (size 0).
+      // Tries the middle of the edge, then other positions along it, then smaller letters; if nothing is free, the name is not drawn
+      // (size 0).
       for (const double size : {1.0, 0.85, 0.7, 0.6, 0.5, 0.4, 0.3, 0.2}) {
         bool found = false;
         for (const double along : {0.5, 0.42, 0.58, 0.34, 0.66, 0.26, 0.74, 0.18, 0.82, 0.1, 0.9}) {
           const Spot spot = spot_on(line, along * length_of(line));
           const Point out = spot.left();
-          // As far out as the size of the text asks for in this direction.
+          // The distance from the edge depends on the direction, because names are wider than high.
           const double reach = std::abs(out.x) * 0.28 * static_cast<double>(letters) + std::abs(out.y) * 0.36;
           const Point at = spot.at + (panel.gap + (0.16 + reach) * size * s.sizes[k]) * out;
           const NameBox box = name_box(at, letters, size * s.sizes[k]);
@@ -209,7 +212,7 @@ void place_names(const PlanarMap& map, std::uint32_t outer, double smallest, Pan
   }
   const double largest = std::max(smallest, 0.072);
   panel.text = std::clamp(wanted, smallest, largest);
-  // Smaller where names would not be half as large as wanted.
+  // Reduces the size if names would be less than half as large as wanted.
   Crowd crowd = name_halfedges(map, rooms, outer, smallest, panel);
   while (crowd.least < 0.5 && panel.text > smallest) {
     panel.text = std::max(smallest, 0.9 * panel.text);

@@ -1,7 +1,7 @@
 const story = data, frames = story.frames;
 let now = -1, moving = 0;
 
-// "0 2 1 0 0;1 ..." -> Map of name -> fields
+// Parses "0 2 1 0 0;1 ..." to a Map from names to fields.
 const table = (text, letters) => new Map(text.split(';').filter(Boolean).map(row => {
   const n = row.split(' ');
   return [letters[0] + n[0], n.slice(1).map((x, i) => letters[i + 1] + x)];
@@ -29,7 +29,7 @@ function records(title, columns, here, before, lit) {
   return t;
 }
 
-// Moves everything that both pictures have from where it was; what is new fades in.
+// Animates elements that both pictures have from their old positions; new ones fade in.
 function move(from, to) {
   const token = ++moving, old = new Map(), jobs = [];
   for (const e of from.querySelectorAll('[data-k]')) old.set(e.dataset.k, e);
@@ -58,7 +58,7 @@ function move(from, to) {
   requestAnimationFrame(draw);
 }
 
-// The walk of what is pointed at: around a face, from a vertex, or of a half-edge around its face.
+// The walk of the element under the pointer: around a face, around a vertex, or, for a half-edge, around its face.
 let held = null;
 function walkOf(name) {
   const f = frames[now], edge = /^e(\d+)$/.exec(name);
@@ -131,7 +131,7 @@ function show(i) {
   if (f.h.size) $('tables').append(records('half-edge', ['next', 'prev', 'vertex', 'face'], f.h, before && before.h, f.lit), anchors);
   mark(null);
   const changed = $('tables').querySelector('.fresh, .moved');
-  if (changed) {  // in the middle of the table, which scrolls below the caption
+  if (changed) {  // scrolls the changed row to the middle of the table
     const box = $('tables'), at = changed.getBoundingClientRect().top - box.getBoundingClientRect().top + box.scrollTop;
     box.scrollTop = at > box.clientHeight - 40 ? at - box.clientHeight / 2 : 0;
   }

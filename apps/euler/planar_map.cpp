@@ -8,7 +8,8 @@
 namespace apps::euler {
 namespace {
 
-// While edges are being added: each half-edge h is a dart that leaves its vertex; where its edge is cut, a second dart, h + n, comes back.
+// The map while edges are added: each half-edge h is a dart that leaves its vertex; if its edge is cut, a second dart, h + n, returns to
+// it.
 class Opening {
  public:
   Opening(const Records& records, const std::vector<std::uint32_t>& shell)
@@ -21,7 +22,7 @@ class Opening {
   }
   [[nodiscard]] std::uint32_t count() const { return n_; }
 
-  // Adds all edges that keep the map plane, in this order.
+  // Adds, in this order, all edges that keep the map planar.
   void add(const std::vector<std::uint32_t>& order) {
     std::vector<std::uint32_t> piece(records_.vertices.size());
     std::iota(piece.begin(), piece.end(), 0U);
@@ -58,7 +59,7 @@ class Opening {
   std::vector<std::uint32_t> face_;
 };
 
-// v - e + f = 2 for a shell without handles.
+// Does the shell have no handles, i.e. is v - e + f = 2?
 bool is_plane(const Records& records, const std::vector<std::uint32_t>& shell) {
   std::vector<std::uint32_t> v, f;
   for (const std::uint32_t h : shell) {
@@ -113,7 +114,7 @@ PlanarMap planar_map(const Records& records, const std::vector<std::uint32_t>& s
     if (found.second) { map.vertices.push_back(name); }
     return found.first->second;
   };
-  std::vector<std::uint32_t> dart(2 * std::size_t{opening.count()}), walk;  // dart: from the names in Opening to ours
+  std::vector<std::uint32_t> dart(2 * std::size_t{opening.count()}), walk;  // dart: from numbers of Opening to those of the map
   const auto new_dart = [&](std::uint32_t d, std::uint32_t start, std::uint32_t name) {
     dart[d] = static_cast<std::uint32_t>(map.darts.size());
     walk.push_back(d);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// All records of a BRep at one moment, as plain numbers: what the stepper draws and tabulates, whatever the type of the BRep.
+// All records of a BRep in one state, as plain numbers: what the stepper draws and tabulates, independent of the type of the BRep.
 
 #include <cstdint>
 #include <vector>
@@ -17,7 +17,7 @@ struct Records {
     friend bool operator==(const Halfedge&, const Halfedge&) = default;
   };
   std::vector<Halfedge> halfedges;             // by index, dead ones included
-  std::vector<std::uint32_t> vertices, faces;  // the anchors; brep::invalid_index where dead
+  std::vector<std::uint32_t> vertices, faces;  // the anchor half-edges; brep::invalid_index for dead elements
   long v = 0, e = 0, f = 0;
 
   [[nodiscard]] bool alive(brep::HalfedgeId h) const { return h.index < halfedges.size() && halfedges[h.index].alive; }

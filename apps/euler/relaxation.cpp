@@ -14,8 +14,8 @@ namespace {
 
 using Point = glm::dvec2;
 
-// How far all triangles are from their rest shapes (the symmetric Dirichlet energy |J|^2 (1 + 1 / det(J)^2), infinite where a
-// triangle is turned over) and how much edges bend. Scale: the length in the disc of a rest shape's unit.
+// The deviation of all triangles from their rest shapes (the symmetric Dirichlet energy |J|^2 (1 + 1 / det(J)^2), infinite if a triangle
+// is turned over) plus the bending of edges. `scale`: length in the disc of the unit of rest shapes.
 double energy(const Net& net, double scale, double stiffness, const std::vector<bool>& fixed, const std::vector<Point>& x,
               std::vector<Point>& gradient) {
   std::fill(gradient.begin(), gradient.end(), Point(0.0));
@@ -62,13 +62,14 @@ bool all_turn_left(const Net& net, const std::vector<Point>& x) {
 }
 
 void unfold(const Net& net, double scale, const std::vector<bool>& fixed, std::vector<Point>& x) {
-  std::vector<std::vector<std::pair<std::uint32_t, std::uint32_t>>> at(net.count);  // the triangles of a point, and which corner it is
+  // By point: its triangles, and its corner number in each.
+  std::vector<std::vector<std::pair<std::uint32_t, std::uint32_t>>> at(net.count);
   for (std::uint32_t t = 0; t < net.triangles.size(); ++t) {
     for (std::uint32_t k = 0; k < 3; ++k) { at[net.triangles[t].corner[k]].emplace_back(t, k); }
   }
   constexpr int most = 200;
   for (int round = 0; round < most; ++round) {
-    double largest = 0.0;  // change of log(area)
+    double largest = 0.0;  // largest change of log(area) in the round
     for (std::uint32_t i = 0; i < net.count; ++i) {
       if (fixed[i]) { continue; }
       Point slope(0.0);
@@ -77,7 +78,7 @@ void unfold(const Net& net, double scale, const std::vector<bool>& fixed, std::v
         const auto& corner = net.triangles[t].corner;
         const Point b = x[corner[(k + 1) % 3]] - x[i], c = x[corner[(k + 2) % 3]] - x[i];
         const double det = b.x * c.y - b.y * c.x;
-        const Point grow(b.y - c.y, c.x - b.x);  // of det when x[i] moves
+        const Point grow(b.y - c.y, c.x - b.x);  // gradient of det when x[i] moves
         const glm::dmat2& rest = net.triangles[t].rest;
         const auto row = [&](std::uint32_t m) {
           return m == 0   ? -Point(rest[0].x + rest[0].y, rest[1].x + rest[1].y)

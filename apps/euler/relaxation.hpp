@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// A triangulation in the plane and how its triangles are brought near to their rest shapes; no triangle turns over.
+// A triangulation in the plane, and the methods that bring its triangles close to their rest shapes without turning one over.
 //
 // See embedding.hpp, which makes the triangulation and its first drawing.
 
@@ -21,15 +21,15 @@ struct Link {
 
 struct Triangle {
   std::array<std::uint32_t, 3> corner;  // counter-clockwise
-  glm::dmat2 rest;                      // the inverse of its edge vectors in its rest shape
-  double pull;                          // the weight of its sides
+  glm::dmat2 rest;                      // inverse of the matrix of its edge vectors in its rest shape
+  double pull;                          // the weight of its edges
 };
 
 // Points are numbered: vertices of the map first, then inner points of edges, rings, centres.
 struct Net {
   std::vector<Triangle> triangles;
   std::vector<Link> links;
-  std::vector<std::array<std::uint32_t, 3>> bends;  // three points in a row on an edge
+  std::vector<std::array<std::uint32_t, 3>> bends;  // three consecutive points on an edge
   std::vector<std::uint32_t> outer_ring;            // clockwise, as the walk around the outer face
   double rest_area = 0.0;
   std::uint32_t count = 0;
@@ -41,9 +41,9 @@ struct Net {
 }
 [[nodiscard]] bool all_turn_left(const Net& net, const std::vector<glm::dvec2>& x);
 
-// Evens out what the weighted means left tiny. Each point in turn goes to the least value of the sum of |J|^2 - 2 log det(J) over its
-// triangles, a convex function, by Newton's method: where all is tiny only the ratio of areas counts, so a part grows by
-// a factor in each round however small it begins.
+// Enlarges parts that the weighted means have left tiny. Each point in turn moves to the minimum of the sum of |J|^2 - 2 log det(J) over
+// its triangles, a convex function, by Newton's method. If all its triangles are tiny, only the ratios of their areas matter, so a part
+// grows by a factor in each round, however small it is.
 void unfold(const Net& net, double scale, const std::vector<bool>& fixed, std::vector<glm::dvec2>& x);
 
 // Lowers the energy (L-BFGS, Nocedal 1980) from a drawing without crossings; no triangle turns over on the way.

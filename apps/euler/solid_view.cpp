@@ -16,10 +16,10 @@
 namespace apps::euler {
 namespace {
 
-// Seen from the front, right and above.
+// An oblique projection, seen from the front, right and above.
 glm::dvec2 projected(const glm::dvec3& p) { return {p.x + 0.42 * p.y, -p.z - 0.3 * p.y + 0.08 * p.x}; }
 
-// What is further from the eye is drawn first.
+// Elements farther from the eye are drawn first.
 double depth(const glm::dvec3& p) { return p.y - 0.3 * p.z - 0.2 * p.x; }
 
 std::string point(const glm::dvec2& p) { return trimmed(p.x, 1) + " " + trimmed(p.y, 1); }
@@ -90,14 +90,14 @@ std::string solid_view(const Frame& frame, const Coordinates& coordinates, doubl
   }
   const double scale = 0.8 * width / std::max({1e-9, high.x - low.x, high.y - low.y});
   const auto place = [&](std::uint32_t v) { return scale * (projected(coordinates.at(v)) - 0.5 * (low + high)); };
-  // Disks of the vertices, of all steps alike, are as small as the nearest two ask for; names are as wide as their disk.
+  // The radius of the vertex disks is limited by the smallest distance between two vertices of any step; names are as wide as the disk.
   double radius = 0.035 * width;
   for (auto a = coordinates.begin(); a != coordinates.end(); ++a) {
     for (auto b = std::next(a); b != coordinates.end(); ++b) {
       radius = std::min(radius, 0.48 * glm::length(place(a->first) - place(b->first)));
     }
   }
-  radius = std::max(radius, 0.012 * width);  // two that lie behind one another cannot be told apart anyway
+  radius = std::max(radius, 0.012 * width);  // vertices that are projected onto each other overlap anyway
   std::string out;
   for (const FaceShape& face : faces) {
     if (face.corners.size() < 3) { continue; }

@@ -21,7 +21,7 @@ void Teller::remember(Frame& frame) {
   story_.edges += solid_.edge_count();
   if (!drawn_ && story_.frames.size() > 2) {
     Frame& old = story_.frames[story_.frames.size() - 3];
-    old.drawn = Records();  // by moves, which free the memory
+    old.drawn = Records();  // assignments that free the memory
     old.records = Records();
   }
   frame.records = records_of(solid_);
@@ -106,7 +106,7 @@ namespace {
 
 std::string name(char letter, std::size_t i) { return letter + std::to_string(i); }
 
-// The elements that live in `now` and not in `then`: edges by both their halves.
+// The elements that exist in `now` but not in `then`; edges by both half-edges.
 std::vector<std::string> added(const Records& then, const Records& now) {
   std::vector<std::string> out;
   for (std::uint32_t h = 0; h < now.halfedges.size(); h += 2) {
@@ -136,7 +136,7 @@ std::string change(const char* letter, int by) {
 }  // namespace
 
 std::string told(const brep::Statement& statement, const brep::Outcome& outcome, const Records& before, const Records& after) {
-  if (outcome.kind != brep::Outcome::Kind::done) { return {}; }  // the sentence says it
+  if (outcome.kind != brep::Outcome::Kind::done) { return {}; }  // the sentence of the outcome says why
   if (statement.command == brep::Command::undo) { return "The last step is taken back."; }
   if (statement.command == brep::Command::redo) { return "The step that was taken back is done again."; }
   if (statement.command == brep::Command::raw) { return "One field of one record is overwritten, which no operator would do."; }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// A script that was run, moment by moment: what the pictures and the page show.
+// A script that was run, step by step: the content of the pictures and the page.
 
 #include <cstdint>
 #include <map>
@@ -20,7 +20,7 @@ namespace apps::euler {
 
 using Solid = brep::BRep<brep::NoData, brep::NoData, brep::NoData, brep::EulerLog>;
 
-struct Check {  // an `expect` behind a step
+struct Check {  // an `expect` after a step
   std::string text;
   bool met = true;
   std::string sentence;
@@ -29,11 +29,11 @@ struct Check {  // an `expect` behind a step
 struct Frame {
   std::string statement;  // empty for the start
   std::string caption;
-  std::string told;  // what the step did, in words; of drawn stories
+  std::string told;  // describes the step in words; only in drawn stories
   std::uint32_t line = 0;
   brep::Outcome outcome;
-  Records records;               // as they are, damaged ones too
-  Records drawn;                 // the last that were valid
+  Records records;               // the present ones, damaged ones included
+  Records drawn;                 // the last valid ones
   long shells = 0, handles = 0;  // of `drawn`
   bool damaged = false;
   std::vector<brep::Element> arguments;  // handles as they were before the step
@@ -46,13 +46,13 @@ using Coordinates = std::map<std::uint32_t, glm::dvec3>;  // by vertex
 struct Story {
   std::string title, introduction;
   std::vector<Frame> frames;              // the first is the start
-  std::vector<brep::ScriptError> errors;  // statements that were not done as written
-  Coordinates coordinates;                // where the script has some (outputs.hpp)
-  std::size_t edges = 0;                  // of all frames together: what drawing it costs
+  std::vector<brep::ScriptError> errors;  // statements that were not executed as written
+  Coordinates coordinates;                // only if the script has some (outputs.hpp)
+  std::size_t edges = 0;                  // the sum over all frames: the cost of drawing them
 };
 
-// One statement after another, also after one that failed. A story that is not drawn keeps the records of its last two frames only:
-// those of all steps of a long script are a lot.
+// Executes one statement after another, even after one that failed. A story that is not drawn keeps the records of its last two frames
+// only, because those of all steps of a long script take much memory.
 class Teller {
  public:
   explicit Teller(Solid& solid, bool drawn = true);
@@ -71,7 +71,8 @@ class Teller {
 
 [[nodiscard]] Story tell(const brep::Script& script, const std::string& name, bool drawn = true);
 
-// The statement with its result in front where the script leaves it out: "h2 = split_edge h0", "split_edge h0 -> h2".
+// The statement, with its result added unless it names it already: "h2 = split_edge h0", "split_edge h0   -> h2",
+// "new = split_edge h0   (h2)".
 [[nodiscard]] std::string headline(const Frame& frame);
 // "v 8   e 12   f 6   s 1   h 0"
 [[nodiscard]] std::string counts(const Frame& frame);
@@ -80,21 +81,21 @@ class Teller {
 
 // --- words
 
-// What a step did, for steps about which their script says nothing: the operator with its textbook name, what it adds to the counts, and
-// what is new or gone.
+// Describes a step for which the script has no caption: the operator with its textbook name, its effect on the counts, and the elements
+// that were added or removed.
 [[nodiscard]] std::string told(const brep::Statement& statement, const brep::Outcome& outcome, const Records& before, const Records& after);
 
-// The walk around a face (its half-edges, each with the vertex where it starts) or around a vertex (the half-edges that leave it, each
-// with its face), in a line; a sentence when there is none.
+// The walk around a face (its half-edges, each with its origin) or around a vertex (the half-edges that leave it, each with its face) as
+// one line; a sentence if the element does not exist.
 [[nodiscard]] std::string walk(const Records& records, brep::Element of);
 
-// What a statement of a script may begin with: operators by our names and by those of textbooks, and the other statements.
+// Words with which a statement of a script may begin: operators by our names and by those of textbooks, and other statements.
 [[nodiscard]] std::vector<std::string> statement_words();
 
-// "; did you mean 'split_face'?" of a line whose first word, after a name and =, is not known but near to one that is; else nothing.
+// "; did you mean 'split_face'?" for a line whose first word (after "name =") is unknown but close to a known one; else empty.
 [[nodiscard]] std::string meant(std::string_view line, const std::vector<std::string>& known);
 
-// The same of a line of a script, counted from 1.
+// The same for a line of a script, counted from 1.
 [[nodiscard]] std::string meant_in(std::string_view script, std::uint32_t line);
 
 }  // namespace apps::euler

@@ -77,7 +77,7 @@ class Pen {
     return !old ? " new" : is_argument(letter, index) ? " argument" : "";
   }
 
-  // A strand as a path; backwards when asked.
+  // A strand as an SVG path, optionally backwards.
   [[nodiscard]] std::string path(const Strand& s, bool backwards, bool move) const {
     Curve curve = s.curve;
     if (backwards) { std::reverse(curve.points.begin(), curve.points.end()); }
@@ -109,7 +109,7 @@ class Pen {
             "</text></g>\n";
   }
 
-  // A half-edge: beside the curve, shortened at both ends, with half an arrow head on its left; and its name.
+  // Draws a half-edge beside the curve, shortened at both ends, with half an arrow head on its left, and its name.
   void draw_half(const std::vector<Point>& line, const Strand& s, std::uint32_t side) {
     const std::uint32_t h = s.halfedge ^ side;
     const double all = length_of(line), end = std::min(0.32 * all, 1.9 * panel_.text);
@@ -152,7 +152,7 @@ class Pen {
   std::string out_;
 };
 
-// Breaks text into lines of at most `width` characters; empty lines part paragraphs and stay.
+// Breaks text into lines of at most `width` characters; empty lines separate paragraphs and are kept.
 std::vector<std::string> wrapped(const std::string& text, std::size_t width) {
   std::vector<std::string> lines;
   std::string line;
@@ -186,7 +186,7 @@ struct TextLine {
   std::string text, kind;
 };
 
-// What stands around the drawing of a cell: the operator above; notes and captions below the counts.
+// The text around the drawing of a cell: the operator above; notes and captions below the counts.
 std::vector<TextLine> notes(const Frame& frame, std::size_t width) {
   std::vector<TextLine> lines;
   const auto add = [&](const std::string& text, const char* kind) {
@@ -265,7 +265,7 @@ std::string strip(const Story& story) {
   for (const Frame& frame : story.frames) { edges = std::max(edges, frame.drawn.e); }
   const std::size_t columns = edges <= 14 ? 4 : edges <= 40 ? 3 : 2;  // large maps need large cells
   const double cell = (width - gap) / static_cast<double>(columns) - gap;
-  const auto letters = static_cast<std::size_t>((cell - 10.0) / 5.7);  // in a line of a caption
+  const auto letters = static_cast<std::size_t>((cell - 10.0) / 5.7);  // letters per line of a caption
   const std::vector<Layout> layouts = lay_out(story, 7.4 / (0.5 * cell * 0.96 / 1.26));
   std::string body;
   double y = 56.0;

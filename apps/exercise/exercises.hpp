@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The exercises of examples/exercises: which there are, and what is still wrong with a student's file. A sentence names the first thing
-// that does not hold; it never says how to mend it.
+// The exercises of examples/exercises, and the check of a student's file. The sentence names the first thing that is wrong, but never how
+// to correct it.
 
 #include <optional>
 #include <span>
@@ -11,15 +11,15 @@
 namespace apps::exercise {
 
 struct Exercise {
-  const char* file;  // in examples/exercises, where the text and the beginning are
+  const char* file;  // in examples/exercises, which contains the text and the initial file
   const char* title;
-  // What is wrong, or nothing. Null: a program, tested by examples/exercises/check.sh.
+  // Says what is wrong, or nothing. Null for an exercise that is a program, tested by examples/exercises/check.sh.
   std::optional<std::string> (*fault)(const std::string& text);
 };
 
 // Exercise n is all()[n - 1].
 [[nodiscard]] std::span<const Exercise> all();
-// The file as the student gets it.
+// The initial file that the student gets.
 [[nodiscard]] std::string beginning(const Exercise& exercise);
 
 // --- exercises that are scripts of Euler operators: what is wrong with one, or nothing

@@ -22,7 +22,7 @@ using Fault = std::optional<std::string>;
 struct Answer {
   std::string_view name;
   double value;
-  const char* hint;  // what to think of again; never the number
+  const char* hint;  // what to reconsider; never the number
 };
 
 std::string stripped(const std::string& text) {
@@ -30,7 +30,7 @@ std::string stripped(const std::string& text) {
   return begin == text.npos ? "" : text.substr(begin, end - begin + 1);
 }
 
-// The first answer that is missing, no number, or off by more than half a per cent (of 1 mm or a thousandth where it is 0).
+// Reports the first answer that is missing, not a number, or wrong by more than half a per cent (by more than 0.001 if it is 0).
 Fault compare(const std::string& text, const std::vector<Answer>& answers) {
   std::vector<std::string_view> names;
   for (const Answer& answer : answers) { names.push_back(answer.name); }
@@ -72,7 +72,7 @@ Fault form_factors(const std::string& text) {
     return radiosity::make_patch(up ? corners : radiosity::Polygon{corners.rbegin(), corners.rend()});
   };
   const radiosity::Patch lower = square(0.0, true), upper = square(2.0, false);
-  const double f = radiosity::exchange(lower, upper);  // over 1 m2
+  const double f = radiosity::exchange(lower, upper);  // divided by an area of 1 m2
   return compare(text, {{"F", f, "does the formula have the sides over the distance, and its factor in front?"},
                         {"disk", radiosity::disk_estimate(lower.centre, lower.normal, upper.centre, upper.normal, upper.area),
                          "both cosines, the area, and what stands below the fraction"},

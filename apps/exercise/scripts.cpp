@@ -22,14 +22,14 @@ using euler::Solid;
 
 struct Moment {
   long v = 0, e = 0, f = 0, shells = 0, handles = 0;
-  std::multiset<std::size_t> degrees;  // edges around each face; none where records are damaged
+  std::multiset<std::size_t> degrees;  // number of edges of each face; empty if records are damaged
   std::set<int> broken;                // rules of the validator
 };
 
 struct Played {
   brep::Script script;
   Solid solid;
-  std::vector<Moment> moments;  // after each statement that is no `expect`
+  std::vector<Moment> moments;  // after each statement that is not an `expect`
 };
 
 std::string at(const brep::Place& place) { return "line " + std::to_string(place.line) + ": "; }
@@ -65,7 +65,7 @@ Fault one_shell(const Played& played) {
   return std::nullopt;
 }
 
-// The steps of the beginning must stand at the head of the script.
+// The script must begin with the steps of the initial file.
 Fault kept(const Played& played, std::size_t number) {
   const brep::Script start = *brep::parse_script(beginning(all()[number - 1])).script;
   for (std::size_t i = 0; i < start.statements.size(); ++i) {
@@ -99,12 +99,12 @@ constexpr std::array<Exercise, 12> exercises{{
 }};
 
 struct Rules {
-  std::size_t kept = 0;  // the script begins with the steps of this exercise; 0: of none
-  bool undo = true;      // is allowed
+  std::size_t kept = 0;  // the script must begin with the steps of this exercise; 0: of none
+  bool undo = true;      // is it allowed?
   bool one_shell = true;
 };
 
-// The first thing that is wrong: with the script, by the rules, or what `rest` finds.
+// Reports the first fault: in the script, against the rules, or found by `rest`.
 template <class Rest>
 Fault judge(const std::string& text, const Rules& rules, const Rest& rest) {
   Played played;

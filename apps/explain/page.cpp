@@ -11,7 +11,7 @@
 namespace apps::explain {
 namespace {
 
-// Numbers of one list in one string, four digits each: the page has many.
+// The numbers of a list in one string, with four digits each, to save space because the page contains many.
 template <class List>
 std::string packed(const List& values) {
   std::string out;

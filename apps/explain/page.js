@@ -1,4 +1,4 @@
-// The chapters of a page and what each shows at a step.
+// The chapters of the page, and the content of each of their steps.
 let picked = -1, threshold = data.epsilon, showLinks = false, at99 = 1, solver = '', now = 0, chapter = 0;
 const blue = '#0b5bd3', orange = '#d9730d';
 const facesOf = (tree, leaves, fill) => leaves.map(i => ({points: tree[i].points, node: i, fill: fill(i)}));
@@ -15,7 +15,7 @@ const list = (items, chosen, open) => {
   return all;
 };
 
-// What refinement by form factor alone would do at another threshold, as far as this run has looked.
+// The result of refinement by form factor alone at another threshold, as far as the recorded pairs tell.
 function atThreshold(t) {
   const links = [];
   let open = 0;
@@ -30,7 +30,7 @@ function atThreshold(t) {
   data.pairs.filter(p => p.parent < 0).forEach(go);
   return {links, open};
 }
-// Whether over-shooting comes below shooting at last: only where much light is reflected again does it pay.
+// From which pass on has over-shooting a smaller residual than shooting? It pays only if much light is reflected repeatedly.
 function overshooting(methods) {
   const after = (m, k) => m.residual[Math.min(k, m.residual.length - 1)], shooting = methods.find(m => m.name.startsWith('Southwell'));
   const over = methods.filter(m => m.name.startsWith('over'));
@@ -145,11 +145,11 @@ const chapters = [{
     if (k < 2) {
       const marks = data.leaves.flatMap(l => l.corners.map((c, i) => k ? {at: c, colour: '#c8310f', t: l.t[i]} : {at: c, text: String(l.levels[i]), colour: '#14702d', t: 1}))
         .filter(m => m.t);
-      const marked = new Map(marks.map(m => [m.at + (m.text || ''), m]));  // leaves share corners
+      const marked = new Map(marks.map(m => [m.at + (m.text || ''), m]));  // each mark once, although leaves share corners
       return {faces: data.leaves.map(l => ({points: l.corners, node: l.node, fill: shade(data.radiosity[l.node])})), marks: [...marked.values()]};
     }
     if (k === 2) return {faces: data.mesh.map(m => ({points: m.corners, node: m.node, fill: shade(data.radiosity[m.node])}))};
-    const faces = [];  // bilinear: a face as 4 x 4 cells
+    const faces = [];  // bilinear interpolation, drawn as 4 x 4 cells per face
     for (const m of data.mesh) {
       const b = k === 3 ? m.simple : m.weighted, q = i => Math.min(i, m.corners.length - 1), cut = 4;
       const mix = (v, u, w, add) => add(add(times(v[0], (1 - u) * (1 - w)), times(v[1], u * (1 - w))), add(times(v[q(2)], u * w), times(v[q(3)], (1 - u) * w)));
@@ -206,7 +206,7 @@ const chapters = [{
   }
 }];
 
-// A control that is being dragged must outlive the redraw that it causes.
+// Keeps the controls, because one that is being dragged must survive the redraw that it causes.
 function keep(name, ...controls) {
   if ($('controls').dataset.of !== name) {
     $('controls').replaceChildren(...controls.slice(name === 'threshold' ? 1 : 0).filter(c => c.tagName === 'LABEL'));

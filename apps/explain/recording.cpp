@@ -24,7 +24,7 @@ namespace {
 using radiosity::Decision;
 using radiosity::detail::Run;
 
-// "lower", and of a part of it "lower.2.0": the children on the way down.
+// "lower" for a root, "lower.2.0" for one of its descendants: the child numbers on the path to it.
 std::vector<std::string> names_of(const radiosity::Hierarchy& nodes, const std::vector<radiosity::InputSurface>& surfaces) {
   std::map<std::uint32_t, int> faces, seen;
   for (const radiosity::Node& node : nodes) { faces[node.surface] += node.parent == radiosity::no_node ? 1 : 0; }
@@ -75,7 +75,7 @@ radiosity::Options options_of(const Wanted& wanted) {
   return options;
 }
 
-// Keeps what Control::decided tells.
+// Records the decisions reported by Control::decided.
 class Watch {
  public:
   Watch(Recording& recording, std::atomic<bool>& too_many) : recording_{recording}, too_many_{too_many} {}
@@ -83,7 +83,7 @@ class Watch {
   void take(const radiosity::Question& question, Decision decision) {
     if (const auto known = by_ends_.find(key(question.p, question.q)); known != by_ends_.end()) {
       Pair& pair = recording_.pairs[known->second];
-      if (pair.decision == Decision::link && decision > Decision::link) {  // by the light that it carries
+      if (pair.decision == Decision::link && decision > Decision::link) {  // because of the light that it carries
         pair.decision = decision;
         pair.by_light = true;
       }
@@ -112,7 +112,8 @@ class Watch {
   std::map<std::uint64_t, std::uint32_t> by_ends_;
 };
 
-// Nodes, names and places, and of the channel with the most emission what each surface emits and reflects.
+// Records the nodes with their names and contours, and the emission and reflectance of every surface in the channel with the
+// largest emission.
 void record_nodes(const Run& run, Recording& recording) {
   recording.nodes = in_scene(run.scene.hierarchy, run.scene.frame);
   recording.born.resize(recording.nodes.size(), recording.born.empty() ? 0 : recording.pairs.back().generation + 1);
@@ -148,7 +149,7 @@ void record_links(Run& run, Recording& recording) {
   }
 }
 
-// Gather, push and pull as Transport::apply does them, with what each leaves behind.
+// Performs gather, push and pull as Transport::apply does, and records the result of each.
 void record_iterations(Run& run, Recording& recording) {
   using Moments = radiosity::Transport::Moments;
   radiosity::Transport& transport = *run.transport;
@@ -235,7 +236,7 @@ void record_mesh(Run& run, Recording& recording) {
   }
 }
 
-// Of each generation the choices with the largest errors, and why they were made.
+// Keeps, of each generation, the choices with the largest errors, and the sentences that explain them.
 void keep_worst(Recording& recording) {
   for (BfGeneration& generation : recording.bf) {
     std::stable_sort(generation.choices.begin(), generation.choices.end(),
@@ -245,8 +246,8 @@ void keep_worst(Recording& recording) {
   }
 }
 
-// BF-refinement to its end, with what its oracle is asked, and then up to each of its generations in turn: a generation does not depend on
-// those after it.
+// Runs BF-refinement once to the end, recording what its oracle is asked, and then once up to each generation; a generation does not
+// depend on those after it.
 void record_bf(const radiosity::Scene& scene, Recording& recording) {
   radiosity::Options options = options_of(recording.wanted);
   options.refinement = radiosity::Refinement::a_posteriori;

@@ -1,4 +1,4 @@
-// What the pictures of a page are made of: hierarchies, the view in space, trees, charts.
+// The pictures of the page: hierarchies, the view in space, trees, charts.
 const svg = (tag, attributes) => {
   const e = document.createElementNS('http://www.w3.org/2000/svg', tag);
   for (const [name, value] of Object.entries(attributes)) e.setAttribute(name, value);
@@ -15,7 +15,7 @@ const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
 const centre = polygon => times(polygon.reduce(plus), 1 / polygon.length);
 
-// A hierarchy as the pictures need it: contours, children, depths, and for each moment the leaves of then.
+// A hierarchy for the pictures: contours, children, depths, and the leaves at every step.
 function hierarchy(nodes, born) {
   const tree = nodes.map(n => ({...n, points: points(n.contour), children: [], depth: 0}));
   tree.forEach((n, i) => {
@@ -43,7 +43,7 @@ for (const s of data.solvers) {
 data.pairs.forEach(p => { p.children = []; });
 data.pairs.forEach(p => { if (p.parent >= 0) data.pairs[p.parent].children.push(p); });
 
-// Radiosity as a grey with a warm tint; the lamp is above the scale and white. Light is shown by its square root, as eyes and screens take it.
+// Radiosity as a grey with a warm tint; lamps exceed the scale and are white. The square root approximates the response of the eye.
 const reflected = data.radiosity.filter((_, i) => data.emission[i] === 0);
 const most = Math.max(1e-30, ...(reflected.some(x => x > 0) ? reflected : data.radiosity));
 const shade = b => {
@@ -70,7 +70,7 @@ function camera(width, height) {
     return [width / 2 + scale * (x - (low[0] + high[0]) / 2), height / 2 + scale * (y - (low[1] + high[1]) / 2), depth];
   }};
 }
-// The first view is the one that shows most of what is lit; backs cannot be seen. The scene fills it.
+// The initial view: the direction that shows most lit surface (backs are not visible), with the scene filling the picture.
 function bestView() {
   let best = -1;
   for (const lift of [0.45, -0.45]) for (let turn = -0.6; turn < 5.6; turn += Math.PI / 4) {
@@ -98,7 +98,7 @@ function paint(canvas, {faces, lines = [], marks = []}) {
   for (const f of faces) {
     const at = f.points.map(look.to), c = centre(f.points);
     const normal = f.points.reduce((n, p, i) => plus(n, cross(minus(p, c), minus(f.points[(i + 1) % f.points.length], c))), [0, 0, 0]);
-    const above = dot(normal, minus(look.from, c));  // the eye over the plane of the face
+    const above = dot(normal, minus(look.from, c));  // height of the eye above the plane of the face
     drawn.push({...f, at, normal, above, depth: Math.hypot(...minus(c, look.from)), front: above > 0});
   }
   drawn.sort((a, b) => b.depth - a.depth || (a.wide ? 1 : 0) - (b.wide ? 1 : 0));
@@ -131,7 +131,7 @@ function paint(canvas, {faces, lines = [], marks = []}) {
     const p = look.to(m.at);
     if (behind(drawn, look.from, m.at, p)) continue;
     context.fillStyle = m.colour;
-    if (m.text) {  // with a rim that sets it off from a dark face
+    if (m.text) {  // with a light outline, for contrast with dark faces
       context.strokeStyle = 'rgba(255,255,255,.8)';
       context.lineWidth = 3;
       context.strokeText(m.text, p[0] - 3, p[1] + 4);
@@ -152,7 +152,7 @@ function inside(at, x, y) {
   }
   return within;
 }
-// Does a face that is seen from its front hide a point? The hundredth is for faces around the point itself, which need not be flat.
+// Does a face seen from its front hide the point? The tolerance of 1 % is for faces around the point itself, which need not be planar.
 function behind(drawn, from, point, [x, y]) {
   const away = minus(from, point);
   return drawn.some(f => f.front && !f.wide && f.above < 0.99 * dot(f.normal, away) && inside(f.at, x, y));
@@ -162,7 +162,7 @@ function hit(canvas, x, y) {
   return face ? face.node : -1;
 }
 
-// --- the trees: one box a node, children under their parent, as wide as their leaves
+// --- the trees: one box per node, children below their parent, as wide as their leaves
 function drawTree(tree, known, fill, ring) {
   const width = new Array(tree.length).fill(0), left = new Array(tree.length).fill(0);
   for (let i = tree.length; i-- > 0;) {
@@ -195,7 +195,7 @@ function drawTree(tree, known, fill, ring) {
   $('tree').replaceChildren(picture);
 }
 
-// A chart with logarithmic y; series: {name, colour, values}, a value a step.
+// A chart with logarithmic y; series: {name, colour, values}, one value per step.
 const colours = ['#0b5bd3', '#c8310f', '#14702d', '#8a5a00', '#7a3fb0', '#0a8a8a'];
 function chart(series, upTo, title) {
   const picture = svg('svg', {viewBox: '0 0 400 200', role: 'img'}), values = series.flatMap(s => s.values).filter(v => v > 0);

@@ -20,8 +20,9 @@ std::string number(double x) { return formatted("%.3g", x); }
 
 namespace {
 
-// The numbers from which the estimate follows by the paper's formula (4.3), F = cos cos A / (pi r^2 + A). form_factor_estimate looks from
-// centre to centre with the larger area, or at the nearest point of a disk with its area, or, across a horizon, at the highest points.
+// The numbers in the paper's formula (4.3), F = cos cos A / (pi r^2 + A), that give the estimate. form_factor_estimate evaluates it
+// between the centres with the larger area, or at the nearest point of a disk of this area, or, if one patch reaches below the other's
+// horizon, at the highest points.
 std::string estimate_of(const Recording& recording, const Pair& pair) {
   const radiosity::Node &p = recording.nodes[pair.p], &q = recording.nodes[pair.q];
   const double area = std::max(p.area, q.area);
@@ -108,7 +109,8 @@ std::string refinement(const Recording& r) {
   std::size_t links = 0;
   std::uint32_t last = 0;
   for (const Pair& pair : r.pairs) { last = std::max(last, pair.generation); }
-  for (std::uint32_t generation = 0; generation <= last && !r.pairs.empty(); ++generation) {  // links that are split open pairs later on
+  // Pairs may also be created late, when links are split.
+  for (std::uint32_t generation = 0; generation <= last && !r.pairs.empty(); ++generation) {
     out += "generation " + std::to_string(generation) + ":\n";
     for (const Pair& pair : r.pairs) {
       if (pair.generation != generation) { continue; }

@@ -16,9 +16,9 @@
 namespace apps::explain {
 namespace {
 
-// Shooting in which a face sends `factor` times what it has unshot (over-relaxation of Southwell's method, Gortler et al. 1994): later
-// light is sent in advance, and what was too much stays as unshot light below 0. The system is symmetric and positive definite, so any
-// factor below 2 ends at the solution.
+// Shooting in which a face sends `factor` times its unshot light (over-relaxation of Southwell's method, Gortler et al. 1994): it sends
+// later light in advance, and any excess remains as negative unshot light. The system is symmetric and positive definite, so it converges
+// for any factor below 2.
 Method overshoot(const System& system, const radiosity::detail::Channel& channel, double factor) {
   radiosity::TreeTransport trees{system.transport};
   Method method{"over-shooting by " + formatted("%g", factor), {}, {}};

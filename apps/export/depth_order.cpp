@@ -21,8 +21,8 @@
 namespace apps {
 namespace {
 
-// Plane pieces that lie in the plane of a leaf and cover it, or a part of it, such as a lamp in a ceiling: where both have the same depth,
-// viewers show now the one and now the other.
+// For each object: is it a flat polygon that lies in the plane of a leaf and covers at least a part of it, such as a lamp in a ceiling?
+// Viewers would show either of the two at random, because both have the same depth.
 std::vector<bool> covering(const radiosity::Mesh& mesh, const radiosity::Solution& solution,
                            const std::vector<radiosity::InputSurface>& inputs, const std::vector<raycast::PlacedObject>& objects) {
   std::vector<std::uint32_t> pieces;
@@ -60,14 +60,14 @@ radiosity::Mesh in_depth_order(const SceneFile& file, const radiosity::Solution&
   const std::vector<raycast::PlacedObject> objects = radiosity::placed_objects(file.scene);
   const double step = 1e-4 * radiosity::scene_bounds(file.scene).diameter();
   const std::vector<bool> before = covering(mesh, solution, inputs, objects);
-  std::vector<bool> fixed(mesh.positions.size(), false);  // corners of leaves that are not covered: no gap may open
+  std::vector<bool> fixed(mesh.positions.size(), false);  // vertices of leaves that are not covered: moving them would open gaps
   for (const radiosity::MeshFace& face : mesh.faces) {
     for (std::uint32_t k = 0; k < face.corner_count && !is_covered(solution, face.node); ++k) {
       fixed[mesh.corners[face.first_corner + k].vertex] = true;
     }
   }
   radiosity::Mesh out = mesh;
-  std::map<std::tuple<std::uint32_t, double, double, double>, std::uint32_t> moved;  // by the vertex and its new place
+  std::map<std::tuple<std::uint32_t, double, double, double>, std::uint32_t> moved;  // by vertex and new position
   std::vector<glm::dvec3> outline;
   for (const radiosity::MeshFace& face : mesh.faces) {
     outline.clear();

@@ -26,7 +26,7 @@ namespace apps {
 namespace {
 
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
-constexpr std::size_t most_groups = 2000;  // more names than that help nobody, and viewers slow down
+constexpr std::size_t most_groups = 2000;  // more names are of no use, and slow viewers down
 
 glm::dvec3 unit(const glm::dvec3& v, const glm::dvec3& otherwise) {
   const double length = glm::length(v);
@@ -41,7 +41,8 @@ ExportMesh solution_mesh(const SceneFile& file, const radiosity::Solution& solut
   const std::vector<raycast::PlacedObject> objects = radiosity::placed_objects(file.scene);
   ExportMesh out;
   out.cameras = file.cameras;
-  std::vector<std::uint32_t> newest(mesh.positions.size(), none), next;  // of a place: its vertices, those of the group first
+  // By position: the newest of its vertices, and a chain to the others.
+  std::vector<std::uint32_t> newest(mesh.positions.size(), none), next;
   std::uint32_t object = none;
   for (const radiosity::MeshFace& face : mesh.faces) {
     const radiosity::InputSurface& input = inputs[face.surface];
@@ -120,7 +121,7 @@ ExportMesh split_at_seams(const ExportMesh& mesh, std::vector<glm::vec2>& of_ver
   out.cameras = mesh.cameras;
   out.texture = mesh.texture;
   out.texture_name = mesh.texture_name;
-  std::map<std::tuple<std::uint32_t, float, float>, std::uint32_t> known;  // those of one group lie together, as before
+  std::map<std::tuple<std::uint32_t, float, float>, std::uint32_t> known;  // vertices of a group remain adjacent
   for (std::size_t g = 0; g < mesh.groups.size(); ++g) {
     const ExportGroup& group = mesh.groups[g];
     out.groups.push_back({group.name, group.first_face, static_cast<std::uint32_t>(out.vertices.size())});

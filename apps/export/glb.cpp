@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// GLB (glTF 2.0, binary). COLOR_0 is what a screen shows: linear, exposed, clamped to [0, 1], on an unlit material. _RADIOSITY holds the
-// light itself in W/m2. Positions are floats about the scene's centre, which is the translation of their nodes, so that a scene far from
-// the origin loses nothing; a node above turns z, which is up with us, to y. With a lightmap the colour is a texture in place of COLOR_0.
+// GLB (glTF 2.0, binary). COLOR_0 is the displayed colour: linear, exposed, clamped to [0, 1], on an unlit material. _RADIOSITY contains
+// the light itself in W/m2. Positions are floats relative to the scene's centre, which is the translation of their nodes, so a scene far
+// from the origin loses no precision; the root node rotates our vertical axis z to y. With a lightmap, a texture replaces COLOR_0.
 #include <array>
 #include <cmath>
 #include <cstring>
@@ -25,7 +25,7 @@ namespace {
 
 class Writer {
  public:
-  // `coordinates`: of each vertex in the texture of the mesh; empty when it has none.
+  // `coordinates`: by vertex, in the texture of the mesh; empty if it has none.
   Writer(const ExportMesh& mesh, const std::vector<glm::vec2>& coordinates, const radiosity::Tone& tone)
       : mesh_(mesh), coordinates_(coordinates), tone_(tone) {
     raycast::Box box;
@@ -76,7 +76,7 @@ class Writer {
         for (const std::size_t k : {a, b, c}) { put(binary_, face[k] - group.first_vertex); }
         part.indices += 3;
       };
-      if (face.size() <= 4) {  // shading splits a quadrilateral so (radiosity/result/mesh.hpp)
+      if (face.size() <= 4) {  // as shading divides a quadrilateral (radiosity/result/mesh.hpp)
         for (std::size_t k = 2; k < face.size(); ++k) { triangle(0, k - 1, k); }
         continue;
       }
@@ -89,7 +89,7 @@ class Writer {
   }
 
   [[nodiscard]] bool textured() const { return !coordinates_.empty(); }
-  // Of the list of vertex attributes, POSITION, NORMAL, COLOR_0 or TEXCOORD_0, _RADIOSITY.
+  // Bytes per vertex of list number `list` of the attributes POSITION, NORMAL, COLOR_0 or TEXCOORD_0, _RADIOSITY.
   [[nodiscard]] std::size_t stride(std::size_t list) const { return list == 2 && textured() ? 8 : 12; }
 
   void views(JsonWriter& json) const {
@@ -120,7 +120,7 @@ class Writer {
     json.object("bufferView", 4, "byteOffset", 4 * part.first_index, "componentType", 5125, "count", part.indices, "type", "SCALAR");
   }
 
-  // Looks along its -z, with its y up.
+  // A glTF camera looks along its -z axis, with y up.
   static std::array<double, 16> camera_matrix(const radiosity::Camera& camera) {
     const glm::dvec3 back = -glm::normalize(camera.forward), right = glm::normalize(glm::cross(camera.up, back)),
                      up = glm::cross(back, right);
@@ -128,7 +128,7 @@ class Writer {
     return {right.x, right.y, right.z, 0, up.x, up.y, up.z, 0, back.x, back.y, back.z, 0, e.x, e.y, e.z, 1};
   }
 
-  // The root, then parts, then cameras.
+  // The root node, then the parts, then the cameras.
   void nodes(JsonWriter& json) const {
     const std::size_t parts = parts_.size(), cameras = mesh_.cameras.size();
     json.key("nodes").open_array().open_object();
@@ -157,7 +157,7 @@ class Writer {
     });
   }
 
-  // One material for all, its light as it is.
+  // One unlit material for everything.
   void materials(JsonWriter& json) const {
     json.key("materials").open_array().open_object();
     json.fields("name", "baked light");
@@ -166,7 +166,7 @@ class Writer {
     json.fields("metallicFactor", 0, "roughnessFactor", 1).close();
     json.key("extensions").object("KHR_materials_unlit", [](JsonWriter& unlit) { unlit.object(); });
     json.close().close();
-    if (textured()) {  // linear filters without smaller copies, in which neighbours in the atlas would mix
+    if (textured()) {  // linear filters without mipmaps, in which neighbours in the atlas would be mixed
       json.key("textures").open_array().object("source", 0, "sampler", 0).close();
       json.key("samplers").open_array().object("magFilter", 9729, "minFilter", 9729, "wrapS", 33071, "wrapT", 33071).close();
       json.key("images").open_array().object("bufferView", 5, "mimeType", "image/png").close();

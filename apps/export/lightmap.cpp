@@ -39,11 +39,11 @@ LightTexture texture(const radiosity::Lightmap& map, const radiosity::Tone& tone
   return result;
 }
 
-// The leaves of one input face, flattened into the plane of its chart.
+// The leaves of one input face, projected onto the plane of its chart.
 class FlatFace {
  public:
   FlatFace(const radiosity::Mesh& mesh, const radiosity::Solution& solution, std::span<const std::uint32_t> faces) {
-    for (const bool covered : {false, true}) {  // these have light of their own, those only where there are no others
+    for (const bool covered : {false, true}) {  // leaves with light of their own; covered ones only if there are no others
       for (const std::uint32_t f : faces) {
         if (covered == !(solution.area[mesh.faces[f].node] > 0.0)) { add(mesh, mesh.faces[f]); }
       }
@@ -64,7 +64,7 @@ class FlatFace {
     tree_ = raycast::Bvh(boxes);
   }
 
-  // At a point of the chart's plane.
+  // The light at a point of the chart's plane.
   [[nodiscard]] radiosity::Color light(const radiosity::LightmapChart& chart, const glm::dvec3& point) const {
     const glm::dvec3 at = flat(chart, point);
     const auto weights = [&](std::uint32_t t) {
@@ -113,7 +113,7 @@ class FlatFace {
 std::optional<LightTexture> solution_texture(const radiosity::Solution& solution, const radiosity::Tone& tone, std::optional<double> texel,
                                              ExportMesh& mesh) {
   const radiosity::Mesh& source = solution.mesh;
-  std::map<std::uint32_t, std::vector<std::uint32_t>> faces;  // of each input face
+  std::map<std::uint32_t, std::vector<std::uint32_t>> faces;  // by input face
   for (std::uint32_t f = 0; f < source.faces.size(); ++f) {
     faces[radiosity::input_face(solution.hierarchy, source.faces[f].node)].push_back(f);
   }

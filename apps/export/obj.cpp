@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// OBJ with colours behind the positions of its vertices, as MeshLab, Blender and others read and write them: sRGB in [0, 1], exposed. With
-// a lightmap each corner has its place in it, by the format's custom from the lower left.
+// OBJ with a colour after the position of each vertex, as MeshLab, Blender and others read and write it: sRGB in [0, 1], exposed. With a
+// lightmap each corner has its position in it, by the convention of the format from the lower left.
 #include <radiosity/camera/tone.hpp>
 
 #include "apps/export/export_mesh.hpp"
@@ -14,7 +14,7 @@ std::string one_line(std::string name) {
   return name;
 }
 
-// Programs that read OBJ take y as up, as we do, so a scene is turned; the user's own vertices are not.
+// Programs that read OBJ take y as vertical axis, and ours is z, so the scene is rotated; the user's own vertices are not.
 std::string write_obj(const ExportMesh& mesh, const radiosity::Tone& tone) {
   const bool turn = mesh.z_up && !mesh.as_given;
   const auto turned = [&](const glm::dvec3& v) { return turn ? glm::dvec3(v.x, v.z, -v.y) : v; };

@@ -14,7 +14,7 @@
 namespace apps {
 namespace {
 
-// Gives what differs in mesh vertex, colour or normal its own number, in the order of first use. Normals are told apart to 1 / 1000.
+// Numbers the different combinations of mesh vertex, colour and normal, in the order of first use. Normals are compared to 1 / 1000.
 class Vertices {
  public:
   std::uint32_t index(std::uint32_t vertex, const radiosity::Rgb8& rgb, const glm::vec3& normal) {

@@ -21,14 +21,14 @@
 namespace apps {
 namespace {
 
-// The arrays that the script decodes, little-endian. Radiance times exposure as half floats: a screen shows no more.
+// The arrays that the script decodes, little-endian. Radiance times exposure as half floats, because a screen shows no higher precision.
 struct Arrays {
-  std::string positions;             // three floats a place, about the centre, in units of the size
+  std::string positions;             // three floats per position, relative to the centre, in units of the size
   std::string corner_vertex;         // 32 bits
   std::string corner_light;          // three halves
-  std::string face_size, face_node;  // 8 and 32 bits: corners; number below of the leaf
-  std::string face_seen;             // 8 bits: 0 when another object covers it, or a part of it
-  std::string parent;                // 32 bits a node: its parent, or its own number on an input face
+  std::string face_size, face_node;  // 8 and 32 bits per face: number of corners; node number of the leaf, see `parent`
+  std::string face_seen;             // 8 bits: 0 if another object covers at least a part of it
+  std::string parent;                // 32 bits per node: its parent, or its own number for an input face
 };
 
 }  // namespace

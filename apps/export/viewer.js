@@ -1,4 +1,4 @@
-// The scene by WebGL: arrays of the page's data become buffers, and controls, pointer and keys move the eye.
+// Draws the scene with WebGL: arrays in the page's data become buffers; controls, pointer and keys move the eye.
 const $ = id => document.getElementById(id);
 const bytes = text => Uint8Array.from(atob(text), c => c.charCodeAt(0)).buffer;
 const positions = new Float32Array(bytes(data.positions)), cornerVertex = new Uint32Array(bytes(data.cornerVertex));
@@ -8,7 +8,7 @@ const faceNode = new Uint32Array(bytes(data.faceNode)), parent = new Uint32Array
 const faces = faceSize.length;
 $('title').textContent = data.title; $('sentence').textContent = data.sentence;
 
-// Of each leaf the way down from its input face: at level 0 the input face, at its depth and below the leaf itself.
+// The depths of nodes, for ancestor(): at level 0 this is the input face, at the depth of a leaf and beyond the leaf itself.
 const depth = new Uint8Array(parent.length);
 let deepest = 0;
 for (let i = 0; i < parent.length; ++i) {  // parents come first
@@ -34,7 +34,7 @@ function program(vertex, fragment) {
   if (!gl.getProgramParameter(p, gl.LINK_STATUS)) { fault(gl.getProgramInfoLog(p)); }
   return p;
 }
-// Light is linear; what is shown is clamped and encoded as sRGB. A face that another object covers (no alpha) lies a little behind it.
+// Light is linear; the displayed colour is clamped and encoded as sRGB. A face that another object covers (alpha 0) is moved behind it.
 const surface = program(
   'in vec3 position; in vec3 light; in vec3 flatLight; in vec4 patchColor; uniform mat4 view; uniform int mode; out vec3 color;' +
   'void main() { gl_Position = view * vec4(position, 1.0); if (patchColor.a == 0.0) { gl_Position.z += 2e-4 * gl_Position.w; }' +
@@ -46,7 +46,7 @@ const border = program(
   'in vec3 position; uniform mat4 view; void main() { gl_Position = view * vec4(position, 1.0); gl_Position.z -= 1e-4 * gl_Position.w; }',
   'out vec4 result; void main() { result = vec4(1.0, 0.85, 0.2, 0.6); }');
 
-const half = (() => {  // table of the 65536 half floats
+const half = (() => {  // table of all 65536 half floats
   const table = new Float32Array(65536);
   for (let h = 0; h < 65536; ++h) {
     const e = h >> 10 & 31, m = h & 1023;
@@ -96,7 +96,7 @@ gl.bindVertexArray(lines);
 const lineBuffer = attribute(border, 'position', new Float32Array(3), 3, gl.FLOAT, false);
 let lineCount = 0;
 
-// The borders and colours of the patches of one level: an edge of two faces is no border when both lie in the same patch.
+// The outlines and colours of the patches of one level: an edge between two faces of the same patch is not drawn.
 function chooseLevel(level) {
   const patch = new Uint32Array(faces), open = new Map(), found = [];
   for (let f = 0, out = 0; f < faces; ++f) {
@@ -146,7 +146,7 @@ function take(i) {
 function matrix() {
   const right = unit(cross(forward, up)), above = cross(right, forward), aspect = canvas.width / canvas.height;
   const near = walking ? 1e-3 : Math.max(1e-3, 0.3 * (Math.hypot(...eye) - 0.6)), far = Math.hypot(...eye) + 2;
-  // The camera's picture is in view as a whole.
+  // The whole picture of the camera is visible.
   const x = 1 / Math.tan(fov / 2) * Math.min(1, picture / aspect), y = x * aspect;
   const a = (far + near) / (near - far), b = 2 * far * near / (near - far);
   const m = [right.map(v => v * x), above.map(v => v * y), forward];
@@ -181,7 +181,7 @@ function draw() {
     gl.disable(gl.BLEND);
   }
   const pixel = new Uint8Array(4 * canvas.width * canvas.height);
-  if (window.halflightTest) {  // what a test may ask: the mean of the picture
+  if (window.halflightTest) {  // for tests: the mean of the picture
     gl.readPixels(0, 0, canvas.width, canvas.height, gl.RGBA, gl.UNSIGNED_BYTE, pixel);
     let sum = 0;
     for (let i = 0; i < pixel.length; i += 4) { sum += pixel[i] + pixel[i + 1] + pixel[i + 2]; }
@@ -257,7 +257,7 @@ addEventListener('keyup', e => keys.delete(e.key.toLowerCase()));
 addEventListener('blur', () => keys.clear());
 addEventListener('resize', redraw);
 
-// What stands after # in the address: "borders=level&level=2&show=patches&exposure=1&camera=0&test".
+// Settings in the address after #: "borders=level&level=2&show=patches&exposure=1&camera=0&test".
 for (const [key, value] of new URLSearchParams(location.hash.slice(1))) {
   if (key === 'test') { window.halflightTest = true; } else if ($(key) && 'value' in $(key)) { $(key).value = value; }
 }

@@ -45,8 +45,8 @@ std::string record(const euler::Records& records, std::uint32_t h) {
          n(h ^ 1U);
 }
 
-// The last step of a script: its solid in space, where it has coordinates, and its plane map; below, when asked for, what the halves of the
-// new edge know.
+// The last step of a script: its solid in space, if it has coordinates, and its plane map; with `records`, also the records of the
+// half-edges of the new edge.
 std::string last_step(std::string text, bool records = false) {
   const euler::Coordinates coordinates = euler::take_coordinates(text);
   const euler::Story story = euler::tell(*brep::parse_script(text).script, "");
@@ -68,7 +68,7 @@ std::string last_step(std::string text, bool records = false) {
   return svg(left + 400.0, records ? 460.0 : 400.0, body);
 }
 
-// Solves up to the reconstruction; false when there is no solution.
+// Runs the stages up to the reconstruction; false if there is no solution.
 bool solve(radiosity::detail::Run& run) {
   for (const auto next : {radiosity::stage::build, radiosity::stage::refine, radiosity::stage::expose, radiosity::stage::link,
                           radiosity::stage::solve, radiosity::stage::reconstruct}) {
@@ -106,7 +106,7 @@ explain::Recording recorded(const std::string& scene, double epsilon) {
   explain::Wanted wanted;
   wanted.epsilon = epsilon;
   wanted.min_area = 0.008;
-  wanted.light_epsilon = 1e9;  // the form factor alone
+  wanted.light_epsilon = 1e9;  // so high that only the form factor decides
   return std::move(explain::record(parse_scene(scene).file->scene, "figure", wanted).recording.value());
 }
 
@@ -115,8 +115,8 @@ Drawing hierarchy_over_faces(const std::string& scene) {
   Drawing drawing{640.0, 460.0, {}};
   const auto mesh_point = [](const glm::dvec3& p) { return glm::dvec2{60.0 + 200.0 * p.x + 60.0 * p.y, 420.0 - 75.0 * p.y}; };
   const auto in_plate = [&](std::uint32_t i) { return r.nodes[i].surface == r.nodes[0].surface; };
-  // Leaves side by side, parents above the middle of their children; these stand from left to right as their faces do, so that few arrows
-  // cross.
+  // Leaves are side by side, parents above the middle of their children. Siblings are sorted from left to right like their faces, so that
+  // few arrows cross.
   std::vector<glm::dvec2> at(r.nodes.size(), glm::dvec2{0.0});
   std::size_t leaves = 0;
   for (std::uint32_t i = 0; i < r.nodes.size(); ++i) { leaves += in_plate(i) && r.nodes[i].leaf() ? 1 : 0; }
@@ -184,7 +184,7 @@ Drawing level_tags(const std::string& scene) {
     for (std::size_t k = 0; k < leaf.corners.size(); ++k) {
       const bool t = leaf.t_vertex[k];
       const glm::dvec2 p = place(leaf.corners[k]);
-      if (t) {  // beside the T-vertex, within the leaf that sees it as one
+      if (t) {  // beside the T-vertex, within the leaf for which it is one
         const glm::dvec2 in = glm::normalize(place(r.nodes[leaf.node].centre) - p);
         label(drawing, p + 16.0 * in + glm::dvec2{0.0, 4.0}, "T", 12.0, red);
       }
@@ -204,7 +204,7 @@ Drawing weights_at_a_rim(const std::string& scene) {
   options.threads = 1;
   radiosity::detail::Run run{file.scene, options, {}, {}};
   if (!solve(run)) { return {}; }
-  // The rim's vertex nearest to the eye; the half-edges that leave it, one a face.
+  // Finds the rim's vertex nearest to the eye, then the half-edges that leave it, one per face.
   const radiosity::SurfaceBRep& brep = run.scene.surfaces[0].brep;
   const auto nearness = [&](brep::VertexId v) {
     const glm::dvec3 p = run.scene.frame.to_scene(brep.data(v).position);
@@ -221,7 +221,7 @@ Drawing weights_at_a_rim(const std::string& scene) {
     const glm::dvec3 d = run.scene.frame.to_scene(q) - middle;
     return v_at + glm::dvec2{620.0 * (d.x + 0.25 * d.y), -620.0 * (0.55 * d.y + 0.6 * d.z)};
   };
-  brep::HalfedgeId of = brep.halfedge(best);  // one on the top
+  brep::HalfedgeId of = brep.halfedge(best);  // a half-edge on the top
   for (const brep::HalfedgeId h : brep::halfedges_from(brep, best)) {
     if (brep.data(h).normal.z > brep.data(of).normal.z) { of = h; }
   }
@@ -247,7 +247,7 @@ Drawing weights_at_a_rim(const std::string& scene) {
 
 // --- figures 6 to 8
 
-// Figures 6 to 8: one solution, reconstructed simply and with weights; the bytes of two PNGs of this size.
+// One solution, reconstructed simply and with weights, as the bytes of two PNGs of this size.
 struct Pictures {
   std::string simple, weighted;
 };

@@ -76,7 +76,7 @@ std::vector<std::string> Notes::take() const {
   return sentences;
 }
 
-// --- what the command line says about files of other formats
+// --- options of the command line about files of other formats
 
 namespace {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // glTF 2.0, as text (.gltf) and as binary (.glb): nodes with their matrices, triangles, materials, cameras, lights. Skins, morphs and
-// compressed meshes are passed over with a note. An extension that a file requires and that is not known does not refuse the file: what
-// geometry can be read is read.
+// compressed meshes are ignored with a note. A file that requires an unknown extension is not refused: all geometry that can be read is
+// read.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -22,12 +22,12 @@
 namespace apps::intake {
 namespace {
 
-constexpr std::size_t most_polygons = 20'000'000;  // of all uses of all meshes
+constexpr std::size_t most_polygons = 20'000'000;  // over all uses of all meshes
 constexpr std::size_t nowhere = ~std::size_t{0};
 
 class GltfReader {
  public:
-  // `text_begin`: where the text stands in a GLB; nothing in a text file.
+  // `text_begin`: position of the text in a GLB; nothing for a text file.
   GltfReader(std::string_view text, std::optional<std::string_view> binary, std::optional<std::size_t> text_begin,
              const SideFile& side_file)
       : text_(text), text_begin_(text_begin), binary_(binary), side_file_(side_file) {}
@@ -82,7 +82,7 @@ class GltfReader {
     return matrix;
   }
 
-  // The nodes of the scene, or, where none is named, all that are nobody's child. Each node has one parent, so it is met once.
+  // Visits the nodes of the scene or, if none is named, all nodes without a parent. Each node has one parent, so it is visited once.
   void nodes() {
     const JsonValue &nodes = (*root_)["nodes"], &scenes = (*root_)["scenes"];
     struct Open {
@@ -129,7 +129,7 @@ class GltfReader {
     }
   }
 
-  // EXT_mesh_gpu_instancing: the mesh of a node once for each element of accessors of translations, rotations and scales.
+  // EXT_mesh_gpu_instancing: places a node's mesh once per element of accessors with translations, rotations and scales.
   void instances(const JsonValue& node, const glm::dmat4& matrix, std::size_t index) {
     const JsonValue& attributes = node["extensions"]["EXT_mesh_gpu_instancing"]["attributes"];
     if (!attributes) { return mesh(node, matrix, index); }
@@ -172,7 +172,7 @@ class GltfReader {
     }
   }
 
-  // The extension by which the numbers of a primitive are packed: of itself, or of the views in which they stand.
+  // The extension that compresses the numbers of a primitive, either its own or that of the buffer views it uses; nothing if none does.
   [[nodiscard]] std::optional<std::string_view> compression(const JsonValue& primitive) const {
     constexpr std::string_view draco = "KHR_draco_mesh_compression";
     if (primitive["extensions"][draco]) { return draco; }
@@ -251,7 +251,7 @@ class GltfReader {
     why_ = "; " + sentence;
   }
 
-  // KHR_lights_punctual: candela, taken as W/sr, as the strength of materials is.
+  // KHR_lights_punctual: intensities in candela are taken as W/sr, as for materials.
   void light(const JsonValue& named, const glm::dmat4& matrix, std::size_t index) {
     const JsonValue& given = (*root_)["extensions"]["KHR_lights_punctual"]["lights"][named.index().value_or(nowhere)];
     const std::string place = "node " + std::to_string(index);
@@ -306,7 +306,7 @@ ModelResult read_gltf(std::string_view bytes, const SideFile& side_file) {
   return GltfReader(bytes, std::nullopt, std::nullopt, side_file).run();
 }
 
-// A header of twelve bytes, then chunks: the text first, the bytes second.
+// A GLB has a header of twelve bytes and then chunks: first the text, then the binary data.
 ModelResult read_glb(std::string_view bytes, const SideFile& side_file) {
   const auto refuse = [](std::size_t at, const std::string& sentence) {
     Errors errors;
@@ -323,7 +323,7 @@ ModelResult read_glb(std::string_view bytes, const SideFile& side_file) {
   if (length > bytes.size() - 20) { return refuse(12, "the file ends within its text; it has " + std::to_string(bytes.size()) + " bytes"); }
   std::optional<std::string_view> binary;
   const auto is_binary = [&](std::size_t at) { return at + 8 <= bytes.size() && word_at(at + 4) == bin; };
-  const std::size_t behind = 20 + length;  // chunks begin at multiples of 4; some writers leave the length as it is and do not
+  const std::size_t behind = 20 + length;  // chunks begin at multiples of 4; some writers do not include the padding in the length
   const std::size_t next = is_binary(behind) ? behind : (behind + 3) / 4 * 4;
   if (is_binary(next)) {
     if (word_at(next) > bytes.size() - next - 8) {

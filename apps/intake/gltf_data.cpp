@@ -14,7 +14,7 @@
 namespace apps::intake {
 namespace {
 
-constexpr std::size_t most_zeros = 1'000'000;  // elements of an accessor without bytes
+constexpr std::size_t most_zeros = 1'000'000;  // of an accessor without data
 
 std::optional<std::string> from_base64(std::string_view text) {
   std::string bytes;
@@ -34,7 +34,7 @@ std::optional<std::string> from_base64(std::string_view text) {
   return bytes;
 }
 
-// Of "data:image/png;base64,AAAA"; nothing when it is written otherwise.
+// Decodes "data:image/png;base64,AAAA"; nothing if the URI has another form.
 std::optional<std::string> data_of(std::string_view uri) {
   const std::size_t comma = uri.find(";base64,");
   return comma == uri.npos ? std::nullopt : from_base64(uri.substr(comma + 8));
@@ -47,7 +47,8 @@ struct ComponentType {
 
 std::optional<ComponentType> component_type(const JsonValue& value) {
   static constexpr std::array<ComponentType, 7> types{
-      {{1, true, false}, {1, false, false}, {2, true, false}, {2, false, false}, {}, {4, false, false}, {4, true, true}}};  // from 5120 on
+      // Index 0 is the type 5120.
+      {{1, true, false}, {1, false, false}, {2, true, false}, {2, false, false}, {}, {4, false, false}, {4, true, true}}};
   constexpr std::size_t first = 5120;
   const std::size_t given = value.index().value_or(0);
   return given >= first && given - first < types.size() && types[given - first].size > 0 ? std::optional(types[given - first])
@@ -140,7 +141,7 @@ bool GltfData::elements(const Elements& at, std::vector<double>& out, std::strin
   const std::size_t element = type->size * at.components, stride = view["byteStride"] ? or_zero(view["byteStride"]) : element;
   const std::size_t begin = or_zero(view["byteOffset"]), length = or_zero(view["byteLength"]), first = or_zero(at.place["byteOffset"]);
   if (begin > bytes->size() || length > bytes->size() - begin) { return fail(at.who + ": its view reaches beyond its buffer"); }
-  // All are below 2^32, so nothing overflows.
+  // All numbers are below 2^32, so nothing overflows.
   if (at.count > 0 && (stride < element || first + (at.count - 1) * stride + element > length)) {
     return fail(at.who + " reaches beyond its view");
   }

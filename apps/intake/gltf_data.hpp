@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The numbers of a glTF file: buffers (the binary chunk of a GLB, data in the text itself, files beside it) and the accessors that say what
-// stands where in them. Whatever reaches beyond a buffer is an error; nothing is made larger than the bytes that are there, except for
-// accessors without any, which are zeros. A sparse accessor is one with some of its elements substituted.
+// The numbers of a glTF file: buffers (the binary chunk of a GLB, data in the text itself, files beside it) and the accessors that
+// describe their contents. Access beyond a buffer is an error. No allocation exceeds the number of existing bytes, except for accessors
+// without data, which are zeros. A sparse accessor has some of its elements replaced.
 
 #include <array>
 #include <cstddef>
@@ -17,7 +17,7 @@
 
 namespace apps::intake {
 
-// The first `count` numbers of an array; nothing when there are fewer.
+// The first `count` numbers of an array; nothing if there are fewer.
 template <std::size_t count>
 [[nodiscard]] std::optional<std::array<double, count>> array_of(const JsonValue& value) {
   std::array<double, count> out{};
@@ -31,20 +31,20 @@ template <std::size_t count>
 
 class GltfData {
  public:
-  // `binary`: the chunk of a GLB, if there is one.
+  // `binary`: the binary chunk of a GLB, if any.
   GltfData(const JsonValue& root, std::optional<std::string_view> binary, const SideFile& side_file)
       : root_(root), binary_(binary), side_file_(side_file) {}
 
-  // All numbers of an accessor, `components` for each element: of vectors, or 1 of indices. Nothing after an error: a sentence in `fault`.
+  // All numbers of an accessor with `components` per element (1 for indices). After an error nothing, and a sentence in `fault`.
   [[nodiscard]] std::optional<std::vector<double>> numbers(const JsonValue& accessor_index, std::size_t components, std::string& fault);
 
-  // The bytes of the picture that a texture shows, from wherever they are; nothing when they are nowhere.
+  // The bytes of a picture, wherever they are; nothing if they cannot be found.
   [[nodiscard]] std::optional<std::string> picture(std::size_t image);
 
  private:
-  // So many elements in a row: `place` says in which view, and from which byte of it on.
+  // Consecutive elements: `place` names their buffer view and the offset of the first one in it.
   struct Elements {
-    std::string who;  // of sentences
+    std::string who;  // for error sentences
     const JsonValue& place;
     const JsonValue& component_type;
     std::size_t count, components;
@@ -52,9 +52,9 @@ class GltfData {
   };
 
   [[nodiscard]] std::optional<std::string_view> buffer(std::size_t index, std::string& fault);
-  // Appends the numbers of these elements.
+  // Appends the numbers of these elements to `out`.
   [[nodiscard]] bool elements(const Elements& at, std::vector<double>& out, std::string& fault);
-  // Replaces those elements of an accessor, all of which stand in `at`, that its member `sparse` names.
+  // Replaces the elements of an accessor that its member `sparse` names; `at` describes all elements of the accessor.
   [[nodiscard]] bool substitute(const JsonValue& sparse, Elements at, std::vector<double>& numbers, std::string& fault);
 
   const JsonValue& root_;
@@ -63,7 +63,7 @@ class GltfData {
   std::vector<std::optional<std::string>> loaded_;
 };
 
-// A URI such as "a%20b.bin" as a name; nothing when it is no file beside this one.
+// A URI such as "a%20b.bin" as a file name; nothing if it does not name a file beside this one.
 [[nodiscard]] std::optional<std::string> file_of_uri(std::string_view uri);
 
 }  // namespace apps::intake

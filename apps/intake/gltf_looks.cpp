@@ -14,7 +14,7 @@
 namespace apps::intake {
 namespace {
 
-// The texture of the colour of a material, or that of its emission; empty when it has neither.
+// The colour texture of a material, or else its emission texture; a null value if it has neither.
 const JsonValue& color_texture(const JsonValue& material) {
   const JsonValue& glossy = material["extensions"]["KHR_materials_pbrSpecularGlossiness"];
   const JsonValue& base = (glossy ? glossy : material["pbrMetallicRoughness"])[glossy ? "diffuseTexture" : "baseColorTexture"];
@@ -26,7 +26,7 @@ const JsonValue& color_texture(const JsonValue& material) {
 std::vector<ModelMaterial> read_gltf_materials(const JsonValue& root, GltfData& data, PolygonColors& colors, Notes& notes) {
   std::vector<ModelMaterial> materials;
   Pictures<std::size_t> pictures;
-  // Null when it cannot be read, which is noted.
+  // Null if it cannot be read, which is noted.
   const auto picture_of = [&](const JsonValue& texture, const std::string& factor, const std::string& place) {
     const auto image = root["textures"][texture["index"].index().value_or(~std::size_t{0})]["source"].index();
     std::shared_ptr<const Picture> picture;
@@ -39,7 +39,7 @@ std::vector<ModelMaterial> read_gltf_materials(const JsonValue& root, GltfData& 
     if (!picture) { notes.add("textures are not read: the " + factor + " factor stands for the picture", place); }
     return picture;
   };
-  // Do both lie at the same texture coordinates?
+  // Do both textures use the same texture coordinates?
   const auto lie_alike = [](const JsonValue& a, const JsonValue& b) {
     const auto plain = [](const JsonValue& texture) { return texture["texCoord"].index().value_or(0) == 0 && !texture["extensions"]; };
     return &a == &b || (plain(a) && plain(b));
@@ -56,7 +56,7 @@ std::vector<ModelMaterial> read_gltf_materials(const JsonValue& root, GltfData& 
     const std::string place = "in " + mesh_file::shown(material.name);
     const auto paint = picture ? picture_of(picture, "base colour", place) : nullptr;
     colors.picture(number, PolygonColors::Of::reflectance, paint, place);
-    // A factor of 1 1 1 under a picture that is not known says nothing about the picture.
+    // If the picture is not readable, a factor of 1 1 1 says nothing about the colour.
     if (!picture || paint || color != std::array{1.0, 1.0, 1.0}) {
       if (base || given["emissiveFactor"]) { material.reflectance = radiosity::Color(color[0], color[1], color[2]); }
     }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// What the surfaces of a glTF file look like: materials, their pictures, colours of vertices.
+// The appearance of the surfaces of a glTF file: materials, their pictures, vertex colours.
 
 #include <cstddef>
 #include <optional>
@@ -17,14 +17,14 @@
 
 namespace apps::intake {
 
-// In the order of the file. Their pictures go to `colors`.
+// The materials in the order of the file. Their pictures are added to `colors`.
 [[nodiscard]] std::vector<ModelMaterial> read_gltf_materials(const JsonValue& root, GltfData& data, PolygonColors& colors, Notes& notes);
 
-// Where the vertices of a primitive lie in the picture of its material; empty when it has none, or nothing is said.
+// The texture coordinates of a primitive's vertices in the picture of its material; empty if it has none.
 [[nodiscard]] std::vector<glm::dvec2> gltf_texture_places(const JsonValue& root, GltfData& data, const JsonValue& primitive,
                                                           std::optional<std::size_t> material, std::size_t vertices);
 
-// Three numbers for each vertex, in linear light; empty when it has none, or they cannot be read.
+// Three numbers per vertex, in linear light; empty if the primitive has none or they cannot be read.
 [[nodiscard]] std::vector<double> gltf_vertex_colors(const JsonValue& root, GltfData& data, const JsonValue& primitive,
                                                      std::size_t vertices, Notes& notes, const std::string& place);
 

@@ -26,7 +26,7 @@ class JsonParser {
   }
 
  private:
-  static constexpr std::size_t deepest = 64, most_values = 5'000'000;  // a value takes a hundred bytes, a digit of the text one
+  static constexpr std::size_t deepest = 64, most_values = 5'000'000;  // a value takes about a hundred bytes, a digit in the text just one
 
   void skip() {
     while (at_ < text_.size() && std::string_view(" \t\r\n").find(text_[at_]) != std::string_view::npos) { ++at_; }
@@ -85,7 +85,7 @@ class JsonParser {
     return true;
   }
 
-  // The items of an array, the members of an object.
+  // Parses the items of an array or the members of an object.
   bool list(JsonValue& out, char closing, std::size_t depth) {
     ++at_;
     if (take(closing)) { return true; }
@@ -123,7 +123,7 @@ class JsonParser {
     ++at_;
     return true;
   }
-  // The four digits behind \u, as UTF-8; the halves of a pair are put together.
+  // Parses the four digits after \u and appends them as UTF-8; surrogate pairs are combined.
   bool character(std::string& out) {
     const auto four = [&](std::size_t from, std::uint32_t& value) {
       const std::string_view digits = text_.substr(std::min(from, text_.size()), 4);

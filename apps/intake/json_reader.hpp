@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Reads JSON (RFC 8259) into a tree of values. Strings are kept as UTF-8; what is wrong is told with its place. At most 64 levels deep, so
-// that recursion is bounded. Asking a value for what it is not gives nothing, so readers need no checks of their own.
+// Reads JSON (RFC 8259) into a tree of values. Strings are UTF-8; errors have their position. At most 64 levels deep, so recursion is
+// bounded. Asking a value for another type gives nothing (or the default), so readers need no checks of their own.
 
 #include <cstddef>
 #include <optional>
@@ -19,7 +19,7 @@ class JsonValue {
   [[nodiscard]] Kind kind() const { return kind_; }
   [[nodiscard]] std::size_t offset() const { return offset_; }  // bytes before it in the text
 
-  // The member of an object, the item of an array; a null value where there is none.
+  // The member of an object, or the item of an array; a null value if it does not exist.
   [[nodiscard]] const JsonValue& operator[](std::string_view key) const;
   [[nodiscard]] const JsonValue& operator[](std::size_t index) const;
   [[nodiscard]] const std::vector<JsonValue>& items() const { return items_; }  // of arrays and objects
@@ -27,8 +27,8 @@ class JsonValue {
 
   [[nodiscard]] double number(double otherwise = 0.0) const { return kind_ == Kind::number ? number_ : otherwise; }
   [[nodiscard]] bool boolean(bool otherwise = false) const { return kind_ == Kind::boolean ? number_ != 0.0 : otherwise; }
-  [[nodiscard]] const std::string& string() const { return text_; }  // empty unless it is one
-  // A whole number from 0 on; nothing when it is something else.
+  [[nodiscard]] const std::string& string() const { return text_; }  // empty unless it is a string
+  // A whole number from 0 on; nothing for any other value.
   [[nodiscard]] std::optional<std::size_t> index() const;
 
  private:
@@ -46,7 +46,7 @@ struct JsonFault {
   std::string sentence;
 };
 
-// The value that the text holds, or what is wrong with it.
+// The value of the text; after an error nothing, and `fault` is set.
 [[nodiscard]] std::optional<JsonValue> parse_json(std::string_view text, JsonFault& fault);
 
 }  // namespace apps

@@ -22,19 +22,20 @@ namespace {
 
 struct HangingPlace {
   glm::dvec3 point{0.0};
-  double room = 0.0;  // to what is around and below it
+  double room = 0.0;  // smallest distance to anything around and below it
 };
 
 }  // namespace
 
-// What shines less than a hundredth as bright as the brightest is no lamp: many programs give every material a little light of its own.
+// A surface with less than a hundredth of the largest exitance does not count as a lamp: many programs give every material a little
+// emission.
 LightViews::LightViews(const radiosity::Scene& scene) : objects_(radiosity::placed_objects(scene)) {
   const std::vector<radiosity::InputSurface> surfaces = radiosity::surfaces(scene);
   const auto exitance = [&](const radiosity::InputSurface& s) { return radiosity::brightest(scene.materials[s.material].emission); };
   double most = 0.0;
   for (const radiosity::InputSurface& surface : surfaces) { most = std::max(most, exitance(surface)); }
   std::vector<const radiosity::InputSurface*> shining;
-  std::vector<double> power(scene.objects.size(), 0.0);  // about
+  std::vector<double> power(scene.objects.size(), 0.0);  // approximate
   for (const radiosity::InputSurface& surface : surfaces) {
     if (!(exitance(surface) > 0.01 * most)) { continue; }
     shining.push_back(&surface);
@@ -60,7 +61,7 @@ LightViews::LightViews(const radiosity::Scene& scene) : objects_(radiosity::plac
 bool LightViews::lit(std::uint32_t object, const raycast::SurfacePoint& at) const {
   return std::any_of(points_.begin(), points_.end(), [&](const LampPoint& lamp) {
     const raycast::PlacedObject& shape = objects_.object(lamp.object);
-    const raycast::SurfacePoint on = shape.flat() ? lamp.at : shape.project(lamp.sheet, at.position);  // of a round lamp the nearest point
+    const raycast::SurfacePoint on = shape.flat() ? lamp.at : shape.project(lamp.sheet, at.position);  // on a curved lamp the nearest point
     const glm::dvec3 way = on.position - at.position;
     return lamp.object == object || (glm::dot(way, at.normal) > 0.0 && glm::dot(way, on.normal) < 0.0 &&
                                      !objects_.occluded({at.position, way}, object, lamp.object));
@@ -95,7 +96,7 @@ double LightViews::free_way(const glm::dvec3& from, const glm::dvec3& direction)
 }
 
 std::optional<radiosity::Camera> LightViews::across_room(glm::dvec3 middle) const {
-  constexpr double eye_height = 0.6;  // of the way from what is below to what is above
+  constexpr double eye_height = 0.6;  // relative to the distance from floor to ceiling
   middle.z -= (1.0 - eye_height) * free_way(middle, {0, 0, -1});
   glm::dvec3 away{0.0};
   double most = 0.01 * objects_.diameter();
@@ -113,7 +114,8 @@ std::optional<radiosity::Camera> LightViews::across_room(glm::dvec3 middle) cons
   radiosity::Camera camera;
   camera.name = "inside";
   camera.eye = middle + 0.9 * most * away;
-  // Between a lamp and the ceiling close above it the way was found under the ceiling; the eye stands between floor and ceiling.
+  // If `middle` is between a lamp and the ceiling close above it, it is too high, so the eye is moved to its height between floor and
+  // ceiling.
   const double below = free_way(camera.eye, {0, 0, -1}), above = free_way(camera.eye, {0, 0, 1});
   if (below > 0.0 && above > 0.0) { camera.eye.z += eye_height * (below + above) - below; }
   camera.forward = -away;
@@ -145,7 +147,7 @@ std::optional<radiosity::Camera> LightViews::inside() const {
 }
 
 std::shared_ptr<const raycast::Object> LightViews::ceiling_lamp(const raycast::Box& box) const {
-  constexpr int steps = 9;  // odd: the middle of the room among others
+  constexpr int steps = 9;  // odd, so that the middle of the room is among the positions
   std::vector<HangingPlace> places;
   double most = 0.0;
   for (int i = 0; i < steps * steps * steps; ++i) {
@@ -154,7 +156,7 @@ std::shared_ptr<const raycast::Object> LightViews::ceiling_lamp(const raycast::B
     const double up = free_way(point, {0, 0, 1});
     if (!(up > 0.0)) { continue; }
     const glm::dvec3 under = point + glm::dvec3(0, 0, 0.95 * up);
-    if (objects_.covered(under, {0, 0, -1}, raycast::no_object)) { continue; }  // in a thing
+    if (objects_.covered(under, {0, 0, -1}, raycast::no_object)) { continue; }  // inside an object
     double room_here = free_way(under, {0, 0, -1});
     for (const glm::dvec3& side : {glm::dvec3(1, 0, 0), glm::dvec3(-1, 0, 0), glm::dvec3(0, 1, 0), glm::dvec3(0, -1, 0)}) {
       room_here = std::min(room_here, free_way(under, side));
@@ -163,7 +165,7 @@ std::shared_ptr<const raycast::Object> LightViews::ceiling_lamp(const raycast::B
     places.push_back({under, room_here});
   }
   if (!(most > 0.0)) { return nullptr; }
-  // In a corridor there is as much air all along: then the middle lights most of it.
+  // In a corridor there is equally much air everywhere; then the place nearest to the middle lights most of it.
   constexpr double as_good = 0.9;
   const HangingPlace* best = nullptr;
   const auto off_middle = [&](const HangingPlace& p) { return glm::length(glm::dvec2(p.point) - glm::dvec2(box.centre())); };

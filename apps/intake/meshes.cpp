@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The formats of polygon meshes (mesh_file.hpp) as scenes: PLY and OFF are geometry alone, OBJ has groups, and materials in files of its
-// own.
+// Reads the formats of polygon meshes (mesh_file.hpp) as scenes: PLY and OFF contain geometry only, OBJ has groups, and its materials are
+// in separate files.
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -26,7 +26,7 @@ namespace {
 
 using mesh_file::Lines;
 
-// The three numbers of "Kd r g b"; one alone stands for all. Nothing when it is a spectral curve, CIE XYZ or no number.
+// Parses the three numbers of "Kd r g b"; a single one counts for all three. Nothing for a spectral curve, CIE XYZ or text.
 std::optional<radiosity::Color> color(const Lines& lines) {
   radiosity::Color c{0.0};
   const std::size_t given = lines.words().size() - 1;
@@ -39,7 +39,8 @@ std::optional<radiosity::Color> color(const Lines& lines) {
   return c;
 }
 
-// Many files name folders of the computer on which they were written: what is not there may lie beside the file.
+// Reads a file by its name. Many files contain paths of the computer on which they were written, so a missing file is looked
+// for beside this one.
 std::optional<std::string> file_of_name(const std::string& name, const SideFile& side_file, std::string& fault) {
   auto bytes = side_file(name, fault);
   const std::size_t folder = name.find_last_of("/\\");
@@ -47,16 +48,15 @@ std::optional<std::string> file_of_name(const std::string& name, const SideFile&
   return bytes || folder == std::string::npos ? bytes : side_file(name.substr(folder + 1), ignored);
 }
 
-// The name of the picture behind map_Kd: options, each with numbers or words, then the name.
+// The name of the picture after map_Kd, which may be preceded by options with numbers or words.
 std::string picture_of(const Lines& lines) {
   std::string name(lines.words()[1].starts_with('-') ? lines.words().back() : lines.rest());
   std::replace(name.begin(), name.end(), '\\', '/');
   return name;
 }
 
-// MTL, the materials of OBJ files: Kd is the reflectance; Ke, the radiance that a surface sends out, becomes its exitance pi Ke. Nothing in
-// such a file is an error: what cannot be read is noted, and the material keeps what it has. Gives the materials of these names what the
-// library says about them.
+// Reads MTL, the materials of OBJ files, into the materials with the same names: Kd is the reflectance; Ke, the emitted radiance, becomes
+// the exitance pi Ke. Nothing in such a file is an error: whatever cannot be read is noted, and the material remains as it is.
 void read_obj_materials(const std::string& library, const SideFile& side_file, std::vector<ModelMaterial>& materials, PolygonColors& colors,
                         Notes& notes) {
   std::string fault;
@@ -67,9 +67,9 @@ void read_obj_materials(const std::string& library, const SideFile& side_file, s
   ModelMaterial unused;
   ModelMaterial* material = &unused;
   Pictures<std::string> pictures;
-  std::vector<ModelMaterial*> with_picture;  // for Kd, whichever comes first
-  std::vector<ModelMaterial*> glowing;       // for Ke
-  std::vector<ModelMaterial*> unseen;        // with a picture for Kd that is not read
+  std::vector<ModelMaterial*> with_picture;  // for Kd; map_Kd and Kd may come in either order
+  std::vector<ModelMaterial*> glowing;       // with a picture for Ke
+  std::vector<ModelMaterial*> unseen;        // with a picture for Kd that cannot be read
   Lines lines(*text, true, true);
   while (lines.next()) {
     const std::string_view word = lines.words()[0];
@@ -110,7 +110,7 @@ void read_obj_materials(const std::string& library, const SideFile& side_file, s
       if (value && *value != (word == "d" ? 1.0 : 0.0)) { notes.add("materials that let light through are taken as opaque", place); }
     }
   }
-  // A colour of 0 beside a picture is what programs write that know no factor.
+  // Programs that have no factor write a colour of 0 beside a picture.
   for (ModelMaterial* const of : unseen) {
     if (of->reflectance && radiosity::is_black(*of->reflectance)) { of->reflectance.reset(); }
   }
@@ -122,7 +122,7 @@ void read_obj_materials(const std::string& library, const SideFile& side_file, s
   }
 }
 
-// What a face has of its own, or the mean of what its vertices have, in linear light; nothing when that is not known of all of them.
+// The face's own colour, or the mean of its vertex colours, in linear light; nothing if one of these is unknown.
 std::optional<radiosity::Color> color_of(const Mesh& mesh, std::uint32_t face) {
   radiosity::Color sum(0.0);
   const auto add = [&](const std::vector<glm::vec3>& list, std::size_t i) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// MGF (Materials and Geometry Format, Ward 1995), as far as diffuse scenes have it: the entities o, xf, i here, colours and materials in
-// mgf_looks.cpp, shapes in mgf_shapes.cpp. All else is told and passed over.
+// MGF (Materials and Geometry Format, Ward 1995), as far as diffuse scenes use it: the entities o, xf, i here, colours and materials in
+// mgf_looks.cpp, shapes in mgf_shapes.cpp. Everything else is noted and ignored.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -99,7 +99,7 @@ glm::dmat4 Transforms::copy(std::size_t i) const {
 
 namespace {
 
-constexpr std::size_t most_lines = 5'000'000;  // that are carried out: copies of copies multiply
+constexpr std::size_t most_lines = 5'000'000;  // that are executed, because nested copies multiply
 constexpr std::size_t most_corners = 10'000'000;
 constexpr std::size_t most_files = 1000, deepest = 32;
 
@@ -112,7 +112,7 @@ class Reader {
   Model model;
   Notes notes;
 
-  // Carries a text out; errors of it into `errors`.
+  // Executes a text; its errors are added to `errors`.
   void read(std::string_view text, const glm::dmat4& placed, std::size_t depth, Errors& errors) {
     std::vector<Line> lines;
     mesh_file::Lines source(text, true, true);
@@ -140,7 +140,7 @@ class Reader {
       }
       if (line.words.size() > 1) {
         Frame frame{Transforms(line, 1, errors), i, 0, shapes_.transform};
-        if (frame.transforms.copies() == 0) {  // to its end
+        if (frame.transforms.copies() == 0) {  // no copies: skips to the end of its block
           std::size_t inner = 1;
           while (inner > 0 && ++i < lines.size()) {
             if (lines[i].words[0] == "xf") { inner += lines[i].words.size() > 1 ? 1 : static_cast<std::size_t>(-1); }
@@ -194,7 +194,7 @@ class Reader {
     const std::string name(line.word(1));
     const Transforms transforms(line, 2, errors);
     std::string fault;
-    if (refused_.contains(name)) { return; }  // that has been told
+    if (refused_.contains(name)) { return; }  // already reported
     if (depth >= deepest || ++files_ > most_files) {
       return errors.add(line.place(0), depth >= deepest ? "files that include others are nested deeper than " + std::to_string(deepest)
                                                         : "more than " + std::to_string(most_files) + " files are included");
@@ -224,8 +224,8 @@ class Reader {
   const SideFile& side_file_;
   Looks looks_{model, notes};
   Shapes shapes_{model, notes, looks_};
-  std::vector<std::string> objects_;  // that are open
-  std::string file_;                  // that is included; empty: none
+  std::vector<std::string> objects_;  // open objects, from the outermost
+  std::string file_;                  // the file being included; empty: none
   std::set<std::string> refused_;     // included files with errors
   std::size_t lines_ = 0, files_ = 0;
 };

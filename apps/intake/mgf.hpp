@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The parts of the reader of MGF (mgf.cpp): lines, transforms, colours and materials, shapes.
+// Parts of the MGF reader (mgf.cpp): lines, transforms, colours and materials, shapes.
 
 #include <array>
 #include <cstddef>
@@ -28,26 +28,26 @@
 
 namespace apps::intake::mgf {
 
-// A line of a file: its words and where they stand.
+// A line of a file: its words and their places.
 struct Line {
   std::vector<std::string_view> words;
-  std::vector<Place> places;  // one more: the end of the line
+  std::vector<Place> places;  // one more than words: the last is the end of the line
 
   [[nodiscard]] std::string_view word(std::size_t i) const { return i < words.size() ? words[i] : std::string_view(); }
   [[nodiscard]] Place place(std::size_t i) const { return places[i < words.size() ? i : words.size()]; }
 };
 
-// For notes.
+// The place of the line, for notes.
 [[nodiscard]] inline std::string at(const Line& line) { return "at line " + std::to_string(line.place(0).line); }
 
-// A finite number of at most max_number; an error otherwise, and 0.
+// The word as a finite number of at most max_number; otherwise reports an error and returns 0.
 [[nodiscard]] double number(const Line& line, std::size_t word, Errors& errors);
 
-// The arguments of xf and i in MGF: -t x y z, -rx -ry -rz degrees, -s factor, -mx -my -mz; each acts on what those before it have made.
-// -i N repeats what follows it N times. -a N makes N copies: what follows it acts 0, 1, ... N - 1 times.
+// The arguments of xf and i in MGF: -t x y z, -rx -ry -rz degrees, -s factor, -mx -my -mz; each applies to the result of those before it.
+// -i N repeats the transforms after it N times. -a N makes N copies; the transforms after it apply 0, 1, ... N - 1 times.
 class Transforms {
  public:
-  // The words from this one on.
+  // Parses the words from number `first` on.
   Transforms(const Line& line, std::size_t first, Errors& errors);
 
   [[nodiscard]] std::size_t copies() const { return copies_; }
@@ -63,7 +63,7 @@ class Transforms {
   std::size_t copies_ = 1;
 };
 
-// Most copies that one xf may make.
+// Maximal number of copies by one xf.
 inline constexpr std::size_t most_copies = 100'000;
 
 struct Chroma {  // CIE 1931
@@ -73,19 +73,19 @@ struct Material {
   std::string name = "default";
   bool two_sided = true;
   radiosity::Color reflectance{0.0}, emission{0.0};
-  std::uint32_t number = none;  // in the model, once something has it
+  std::uint32_t number = none;  // its index in the model after its first use; a change resets it
   static constexpr std::uint32_t none = 0xffffffff;
 };
 struct Vertex {
   glm::dvec3 position{0.0}, normal{0.0};
 };
 
-// Colours, materials and vertices of MGF are contexts: "m" makes an unnamed one of defaults the current one, "m NAME" a known one,
-// "m NAME =" a new one of defaults, "m NAME = OTHER" a new one like another. What follows changes the current one.
+// Colours, materials and vertices of MGF are contexts: "m" selects an unnamed one with default values, "m NAME" a known one, "m NAME =" a
+// new one with default values, "m NAME = OTHER" a copy of another. The following lines change the selected one.
 template <class Value>
 class Contexts {
  public:
-  // What the line says behind its keyword; an error for a name that is not known.
+  // Selects the context named after the keyword; an error if the name is unknown.
   void choose(const Line& line, Errors& errors) {
     const std::string name(line.word(1));
     if (name.empty() || line.word(2) == "=") {
@@ -119,15 +119,15 @@ class Contexts {
   std::map<std::string, Value*, std::less<>> names_;
 };
 
-// What the entities of MGF say of colours and materials: c with cxy, cspec, cct, cmix; m with sides, rd, ed. Mirrors and glass are noted.
+// The entities of MGF about colours and materials: c with cxy, cspec, cct, cmix; m with sides, rd, ed. Mirrors and glass are only noted.
 class Looks {
  public:
   Looks(Model& model, Notes& notes) : model_{model}, notes_{notes} {}
 
-  // Carries the line out; false when its entity is none of these.
+  // Executes the line; false if its entity is not one of these.
   bool take(const Line& line, Errors& errors);
 
-  // The current material's number in the model.
+  // Index of the current material in the model.
   [[nodiscard]] std::uint32_t material();
 
  private:
@@ -151,16 +151,16 @@ class Looks {
   Contexts<Material> materials_{"material"};
 };
 
-// Vertices and shapes of MGF: v with p and n; f, fh, prism, sph, torus, cyl, cone, ring. Spheres and tori stay analytic; what is open,
-// cylinders and cones without their ends, becomes polygons, of as many sides as rings, so that both fit together.
+// Vertices and shapes of MGF: v with p and n; f, fh, prism, sph, torus, cyl, cone, ring. Spheres and tori remain analytic; open shapes
+// (cylinders and cones without ends, rings) become polygons, all with the same number of sides, so that they fit together.
 class Shapes {
  public:
   Shapes(Model& model, Notes& notes, Looks& looks) : model_{model}, notes_{notes}, looks_{looks} {}
 
-  glm::dmat4 transform{1.0};  // where shapes are put
-  std::string name;           // of analytic ones; empty: their kind
+  glm::dmat4 transform{1.0};  // from the coordinates of shapes to those of the model
+  std::string name;           // for analytic shapes; empty: their kind
 
-  // Carries the line out; false when its entity is none of these.
+  // Executes the line; false if its entity is not one of these.
   bool take(const Line& line, Errors& errors);
 
  private:
@@ -177,7 +177,7 @@ class Shapes {
   void ring(const Line& line, Errors& errors);
 
   [[nodiscard]] static glm::dvec3 vector(const Line& line, Errors& errors);
-  // The vertices that the words [first, end) name; fewer when there is an error.
+  // The positions of the vertices named by the words [first, end); fewer after an error.
   [[nodiscard]] std::vector<glm::dvec3> positions_of(const Line& line, std::size_t first, std::size_t end, Errors& errors);
   void polygon(std::vector<glm::dvec3> corners, const Line& line);
   void solid(const char* kind, std::shared_ptr<const raycast::Object> object, bool from_within, const Line& line);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Colours of MGF are CIE (1931) x y chromaticities, spectra, temperatures of black bodies, and mixtures; amounts of light are photometric.
+// Colours of MGF are CIE (1931) xy chromaticities, spectra, black-body temperatures, and mixtures; amounts of light are photometric.
 
 #include <cmath>
 #include <cstddef>
@@ -16,11 +16,11 @@
 
 namespace apps::intake::mgf {
 
-// Lumens of one watt of white light, by the definition of the format.
+// Lumens per watt of white light, by definition of the format.
 inline constexpr double white_efficacy = 179.0;
 
-// The colour of this chromaticity with Y = 1: shares of primaries with the chromaticities of sRGB whose white is that of the format, the
-// equal-energy one (1/3, 1/3). What these cannot show is clamped.
+// The colour of this chromaticity with Y = 1, in primaries with the chromaticities of sRGB but the white of the format, which is the
+// equal-energy one (1/3, 1/3). Colours outside the gamut are clamped.
 [[nodiscard]] inline radiosity::Color color_of(double x, double y) {
   const auto xyz = [](double u, double v) { return glm::dvec3(u / v, 1.0, (1.0 - u - v) / v); };
   const glm::dmat3 primaries(xyz(0.64, 0.33), xyz(0.30, 0.60), xyz(0.15, 0.06));
@@ -28,7 +28,8 @@ inline constexpr double white_efficacy = 179.0;
   return glm::max(glm::inverse(primaries) * xyz(x, y) / white, glm::dvec3(0.0));
 }
 
-// CIE 1931 colour matching functions by sums of Gaussian lobes (Wyman, Sloan and Shirley 2013, errors of 1 to 2 % of their maxima); nm.
+// The CIE 1931 colour matching functions as sums of Gaussian lobes (Wyman, Sloan and Shirley 2013, errors of 1 to 2 % of their maxima);
+// wavelength in nm.
 [[nodiscard]] inline glm::dvec3 matching(double wavelength) {
   const auto lobe = [&](double middle, double below, double above) {
     const double t = (wavelength - middle) / (wavelength < middle ? below : above);
@@ -39,7 +40,7 @@ inline constexpr double white_efficacy = 179.0;
           1.217 * lobe(437.0, 11.8, 36.0) + 0.681 * lobe(459.0, 26.0, 13.8)};
 }
 
-// X Y Z of a spectrum(nm), scaled so that an even spectrum has 1 1 1, the white of the format.
+// X Y Z of a spectrum (a function of nm), scaled so that a constant spectrum has 1 1 1, the white of the format.
 template <class Spectrum>
 [[nodiscard]] glm::dvec3 xyz_of(const Spectrum& spectrum) {
   glm::dvec3 sum(0.0), even(0.0);
@@ -50,7 +51,7 @@ template <class Spectrum>
   return sum / even;
 }
 
-// Of values at even distances from `first` to `last` nm; beyond these it is 0, as the format has it.
+// The same for values at equal distances from `first` to `last` nm; beyond these the spectrum is 0, by definition of the format.
 [[nodiscard]] inline glm::dvec3 xyz_of_samples(std::span<const double> values, double first, double last) {
   return xyz_of([&](double wavelength) {
     const double place = (wavelength - first) / (last - first) * static_cast<double>(values.size() - 1);
@@ -60,11 +61,11 @@ template <class Spectrum>
   });
 }
 
-// Of a black body (Planck 1900), kelvin; up to a factor.
+// The same for a black body (Planck 1900), temperature in kelvin; up to a factor.
 [[nodiscard]] inline glm::dvec3 xyz_of_temperature(double kelvin) {
   constexpr double second_constant = 1.438776877e7;  // nm K
   const auto exponent = [&](double wavelength) { return second_constant / (wavelength * kelvin); };
-  return xyz_of([&](double wavelength) {  // relative to 560 nm: no factor overflows
+  return xyz_of([&](double wavelength) {  // relative to 560 nm, so that no factor overflows
     return std::pow(560.0 / wavelength, 5.0) * std::exp(exponent(560.0) - exponent(wavelength)) * std::expm1(-exponent(560.0)) /
            std::expm1(-exponent(wavelength));
   });

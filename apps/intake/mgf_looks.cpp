@@ -9,7 +9,7 @@
 namespace apps::intake::mgf {
 namespace {
 
-// The number from 0 on that a word is; an error otherwise.
+// The word as a number from 0 on; otherwise reports an error.
 double amount(const Line& line, std::size_t word, Errors& errors) {
   const double value = number(line, word, errors);
   if (value < 0.0) { errors.add(line.place(word), "expected a number from 0 on, found " + mesh_file::shown(line.word(word))); }
@@ -39,7 +39,7 @@ std::uint32_t Looks::material() {
 }
 
 void Looks::chromaticity(const Line& line, Errors& errors) {
-  constexpr double least_y = 0.004;  // of spectral colours 0.0048, at 410 nm
+  constexpr double least_y = 0.004;  // the smallest y of spectral colours is 0.0048, at 410 nm
   Chroma given{number(line, 1, errors), number(line, 2, errors)};
   if (!(given.x >= 0.0 && given.y >= 0.0 && given.x + given.y <= 1.0)) {
     return errors.add(line.place(1), "expected a chromaticity, x and y from 0 on with a sum of at most 1");
@@ -62,12 +62,12 @@ void Looks::spectrum(const Line& line, Errors& errors) {
   for (std::size_t i = 3; i < line.words.size(); ++i) { values.push_back(number(line, i, errors)); }
   if (values.size() < 2) { return errors.add(line.place(line.words.size()), "a spectrum has at least two values"); }
   const glm::dvec3 xyz = xyz_of_samples(values, first, last);
-  const double sum = xyz.x + xyz.y + xyz.z;  // values may be negative: spectra are components of others
+  const double sum = xyz.x + xyz.y + xyz.z;  // values may be negative: a spectrum may be a component of others
   if (!(sum > 0.0 && xyz.y > 1e-6 * sum)) { return errors.add(line.place(3), "nothing of this spectrum is seen"); }
   set_color(xyz);
 }
 
-// By the weights, which are shares of the luminance.
+// Mixes colours by their weights, which are shares of the luminance.
 void Looks::mixture(const Line& line, Errors& errors) {
   glm::dvec3 sum(0.0);
   for (std::size_t i = 1; i + 1 < line.words.size() || i == 1; i += 2) {
@@ -110,7 +110,7 @@ void Looks::set_color(const glm::dvec3& xyz) {
 }
 
 Material& Looks::changed() {
-  materials_.current().number = Material::none;  // what has it already keeps it as it was
+  materials_.current().number = Material::none;  // surfaces that already use it keep its previous state
   return materials_.current();
 }
 

@@ -49,7 +49,7 @@ std::vector<glm::dvec3> Shapes::positions_of(const Line& line, std::size_t first
   return positions;
 }
 
-// Corners before the transform, counter-clockwise from the front.
+// Adds a polygon; corners before the transform, counter-clockwise seen from the front.
 void Shapes::polygon(std::vector<glm::dvec3> corners, const Line& line) {
   if (glm::determinant(glm::dmat3(transform)) < 0.0) { std::reverse(corners.begin(), corners.end()); }
   std::vector<std::uint32_t> indices;
@@ -68,9 +68,9 @@ void Shapes::face(const Line& line, Errors& errors) {
   if (corners.size() + 1 == line.words.size()) { polygon(corners, line); }
 }
 
-// An outline, then outlines of holes, each after a '-'. Holes run the other way round than the outline; one that does not is turned.
+// An outline, then outlines of holes, each after a '-'. Holes must have the opposite orientation of the outline; others are reversed.
 void Shapes::face_with_holes(const Line& line, Errors& errors) {
-  constexpr std::size_t most = 500;  // seams are looked for among all pairs of corners
+  constexpr std::size_t most = 500;  // the search for seams tests all pairs of corners
   if (line.words.size() > most) { return notes_.add("faces with holes and more than 500 corners are left out", at(line)); }
   std::vector<std::vector<glm::dvec3>> loops;
   for (std::size_t first = 1, end = 1; first <= line.words.size(); first = end + 1) {
@@ -105,7 +105,7 @@ void Shapes::prism(const Line& line, Errors& errors) {
   polygon(base, line);
 }
 
-// Seen from within where a radius is negative.
+// A negative radius means that the sphere is seen from inside.
 void Shapes::sphere(const Line& line, Errors& errors) {
   const Vertex* const v = vertices_.find(line, 1, errors);
   const double radius = number(line, 2, errors);
@@ -143,8 +143,8 @@ void Shapes::ring(const Line& line, Errors& errors) {
   if (v != nullptr) { strip(v->position, v->position, v->normal, outer, inner, line); }
 }
 
-// What lies between a circle around `a` and one around `b`, both across `axis`: seen from outside, of a ring from where its axis points;
-// with a negative radius from the other side. Radii may be 0.
+// The surface between a circle around `a` and one around `b`, both perpendicular to `axis`. The front is outside; for a ring it is the
+// side to which the axis points; with a negative radius it is the other side. Radii may be 0.
 void Shapes::strip(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& axis, double from, double to, const Line& line) {
   const double length = glm::length(axis), r = std::abs(from), s = std::abs(to);
   if (!(length > 0.0) || (r == 0.0 && s == 0.0) || (a == b && r == s)) { return notes_.add("shapes without size are left out", at(line)); }

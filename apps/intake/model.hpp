@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Scenes in the formats of other programs. Each format has a reader that fills a Model: polygons, materials, cameras and analytic objects
-// as the file has them, unjudged. to_scene.hpp makes a scene of it: polygons go through the intake (radiosity/intake/intake.hpp), which
-// repairs and counts. A reader refuses what cannot be read, with file, line, column and what to do; what it passes over it notes.
+// Scenes in the formats of other programs. Each format has a reader that fills a Model with polygons, materials, cameras and analytic
+// objects as they are in the file, without judging them. to_scene.hpp makes a scene of it: polygons go through the intake
+// (radiosity/intake/intake.hpp), which repairs and counts them. A reader refuses invalid files, with file, line, column and advice; it
+// notes what it ignores.
 //
-// No input makes a reader throw, crash, recurse deeply or run without end. Files beside the first one are asked for by a function, so that
-// tests and fuzz targets need no file system.
+// No input makes a reader throw, crash, recurse deeply or run without end. Other files are read by a function, so that tests and fuzz
+// targets need no file system.
 
 #include <cstddef>
 #include <cstdint>
@@ -27,22 +28,23 @@
 
 namespace apps {
 
-// A material as files have it: what is not said stays open.
+// A material as described in a file, which may leave values undefined.
 struct ModelMaterial {
   std::string name;
   std::optional<radiosity::Color> reflectance;
   radiosity::Color emission{0.0};  // W/m2
-  bool two_sided = false;          // the file says that its surfaces are seen from both sides
+  bool two_sided = false;          // does the file say that its surfaces are seen from both sides?
 };
 
-// A light without a surface, which becomes a small lamp. `intensity`: W/sr, or, of one that is bright enough for any scene, 1 1 1.
+// A light without a surface, which becomes a small lamp. `intensity` is in W/sr or, if not `absolute`, relative to one that is bright
+// enough for the scene.
 struct ModelLight {
   glm::dvec3 position{0.0};
   radiosity::Color intensity{0.0};
-  bool absolute = false;  // in W/sr
+  bool absolute = false;  // is the intensity in W/sr?
 };
 
-// A run of polygons that stand together: in an included file, or, in formats without lines, in one list. Its name is empty for the file
+// A run of consecutive polygons from one place: an included file or, in formats without lines, a list. The name is empty for the file
 // itself.
 struct ModelPart {
   std::uint32_t first_polygon = 0;
@@ -52,17 +54,17 @@ struct ModelPart {
 struct Model {
   std::vector<glm::dvec3> positions;
   std::vector<std::uint32_t> corners, first_corner{0};
-  std::vector<std::uint32_t> material, group;  // of each polygon
-  std::vector<std::uint32_t> line;             // of each polygon: where it stands in the file; empty or 0: nowhere
-  std::vector<ModelPart> parts;                // of the polygons, in their order; before the first: the file itself
+  std::vector<std::uint32_t> material, group;  // by polygon
+  std::vector<std::uint32_t> line;             // by polygon: its line in the file; empty or 0: unknown
+  std::vector<ModelPart> parts;                // sorted by first polygon; polygons before the first part are in the file itself
   std::vector<std::string> groups;             // names
   std::vector<ModelMaterial> materials;
   std::vector<radiosity::SceneObject> objects;  // analytic ones; their materials are among the model's
   std::vector<ObjectOrigin> origins;            // one per object
   std::vector<radiosity::Camera> cameras;
   std::vector<ModelLight> lights;
-  std::vector<std::string> notes;  // sentences about what was passed over or taken otherwise
-  bool tells_sides = true;         // its format says which surfaces are seen from both sides; the others are seen from the front
+  std::vector<std::string> notes;  // sentences about what was ignored or read differently
+  bool tells_sides = true;         // does the format say which surfaces are seen from both sides? Then others are seen only from the front
 
   [[nodiscard]] std::size_t polygons() const { return first_corner.size() - 1; }
   void polygon(std::span<const std::uint32_t> its_corners, std::uint32_t its_material, std::uint32_t its_group,
@@ -74,15 +76,16 @@ struct Model {
     line.push_back(its_line);
   }
 
-  // The polygons from now on stand in this part.
+  // The polygons added from now on belong to this part.
   void begin_part(const std::string& name);
-  // What has no other name stands in this file.
+  // Gives this name to parts without a name.
   void name_file(const std::string& name);
-  // "at line 12", "at line 12 of part.mgf", "at polygon 3 of 50", "at polygon 3 of 50 in meshes[0].primitives[1]"; polygons from 1 on.
+  // Describes the place of a polygon: "at line 12", "at line 12 of part.mgf", "at polygon 3 of 50", "at polygon 3 of 50 in
+  // meshes[0].primitives[1]"; polygons count from 1.
   [[nodiscard]] std::string place(std::uint32_t polygon) const;
 };
 
-// Notes that are the same for many places: each is told once, with how often and where first.
+// Notes, which may be the same for many places: each is reported once, with its number and its first place.
 class Notes {
  public:
   void add(const std::string& sentence, std::string place = {}) {
@@ -99,14 +102,15 @@ class Notes {
   std::map<std::string, Entry> entries_;
 };
 
-// Does it look somewhere, with its up beside its view, and through a lens that a picture can have? Others must not get into a model.
+// Are the camera's numbers within limits, its up vector not parallel to its direction, and its field of view valid? Models must have no
+// other cameras.
 [[nodiscard]] bool usable(const radiosity::Camera& camera);
 
 struct ModelResult : ErrorReport {
-  std::optional<Model> model;  // nothing when there are errors
+  std::optional<Model> model;  // nothing if there are errors
 };
 
-// What a reader gives back in the end.
+// The result of a reader.
 [[nodiscard]] inline ModelResult read_result(Model model, Errors& errors) {
   const bool sound = errors.count() == 0;
   return {errors.take(), sound ? std::optional(std::move(model)) : std::nullopt};
@@ -114,12 +118,12 @@ struct ModelResult : ErrorReport {
 
 enum class UpAxis : unsigned char { x, y, z };
 
-// A format: one file of this folder defines it; it is named below, and in the list of formats.cpp.
+// A format. One file of this folder defines it; it is declared below and listed in formats.cpp.
 struct ModelFormat {
-  std::string_view ending;                 // of the name, in small letters: ".gltf"
+  std::string_view ending;                 // of the file's name, in lower case: ".gltf"
   std::string_view name;                   // "glTF"
-  UpAxis up;                               // what files of this format mean by up
-  bool (*begins)(std::string_view bytes);  // does a file of this format begin so? For files without a name
+  UpAxis up;                               // the vertical axis of files of this format
+  bool (*begins)(std::string_view bytes);  // can a file of this format begin so? Used for files without a name
   ModelResult (*read)(std::string_view bytes, const SideFile& side_file);
 };
 
@@ -131,7 +135,7 @@ extern const ModelFormat obj, ply, off, stl, gltf, glb, wrl, mgf_format;
 // ".obj, .gltf, ... or .mgf"
 [[nodiscard]] std::string model_endings();
 
-// By the ending of the name, in any case; of "-" by the first bytes. Null when none has it.
+// By the ending of the name, in upper or lower case; for "-" by the first bytes. Null if no format fits.
 [[nodiscard]] const ModelFormat* model_format(std::string_view path, std::string_view bytes);
 
 }  // namespace apps

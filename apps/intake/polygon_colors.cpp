@@ -18,14 +18,15 @@ namespace apps::intake {
 namespace {
 
 constexpr float no_number = std::numeric_limits<float>::quiet_NaN();
-constexpr std::size_t many_colors = 256;  // of one material
+constexpr std::size_t many_colors = 256;  // per material
 
-// The levels of two colours in sRGB, in so many steps from 0 to 1.
+// Two colours in sRGB, quantized to `steps` steps from 0 to 1.
 using Levels = std::array<std::uint8_t, 6>;
 Levels levels(const std::array<radiosity::Color, 2>& colors, double steps) {
   Levels out{};
   for (std::size_t i = 0; i < out.size(); ++i) {
-    const double linear = std::clamp(colors[i / 3][static_cast<int>(i % 3)], 0.0, 1.0);  // false comparisons leave NaN to the next line
+    // NaN fails all comparisons, so the next line handles it.
+    const double linear = std::clamp(colors[i / 3][static_cast<int>(i % 3)], 0.0, 1.0);
     out[i] = linear > 0.0 ? static_cast<std::uint8_t>(std::lround(steps * radiosity::srgb_encode(linear))) : std::uint8_t{0};
   }
   return out;
@@ -54,14 +55,14 @@ void PolygonColors::lies_at(const Model& model, std::span<const glm::dvec2> corn
   std::copy(corners.begin(), corners.end(), places_.end() - static_cast<std::ptrdiff_t>(corners.size()));
 }
 
-// One picture of each material: its mean to the material, or the means of its parts to the polygons.
+// Applies one picture of each material: its mean to the material, or the means of its parts to the polygons.
 void PolygonColors::lay(Of of, Model& model, std::vector<Factors>& factors, Notes& notes) const {
   const auto which = static_cast<std::size_t>(of);
   struct Spread {
     double within = 0.0, between = 0.0;
   };
   std::vector<Spread> spread(pictures_.size());
-  std::vector<std::pair<std::uint32_t, radiosity::Color>> parts;  // of polygons
+  std::vector<std::pair<std::uint32_t, radiosity::Color>> parts;  // by polygon
   for (std::uint32_t p = 0; p < model.polygons(); ++p) {
     const std::uint32_t material = model.material[p], first = model.first_corner[p], end = model.first_corner[p + 1];
     if (material >= pictures_.size() || !pictures_[material][which].picture || end > places_.size()) { continue; }
@@ -113,7 +114,8 @@ void PolygonColors::apply(Model& model, Notes& notes) {
   }
   lay(Of::reflectance, model, factors, notes);
   lay(Of::emission, model, factors, notes);
-  std::map<std::pair<std::uint32_t, Levels>, std::uint32_t> known;  // materials of which there are so many colours
+  // The new material for a material and a colour; first used to count the colours.
+  std::map<std::pair<std::uint32_t, Levels>, std::uint32_t> known;
   std::vector<std::size_t> colors(model.materials.size(), 0);
   for (std::uint32_t p = 0; p < model.polygons(); ++p) {
     const std::uint32_t m = model.material[p];
@@ -123,7 +125,7 @@ void PolygonColors::apply(Model& model, Notes& notes) {
   const Levels white = levels({radiosity::Color(1.0), radiosity::Color(1.0)}, 255.0);
   for (std::uint32_t p = 0; p < model.polygons(); ++p) {
     const std::uint32_t m = model.material[p];
-    // White among colours is white; a file that has nothing else, as programs write that know no colours, says nothing by it.
+    // A white polygon among coloured ones is really white; if all are white, the program that wrote the file probably knows no colours.
     const bool says_white = is_tinted(p) && !model.materials[m].reflectance && colors[m] > 1;
     if (levels(factors[p], 255.0) == white && !says_white) { continue; }
     const double steps = colors[m] > many_colors ? 16.0 : 255.0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// STL (3D Systems 1989), as text and as binary: triangles, each with three positions of its own. Equal positions are one corner, so that
-// the triangles of a solid are one surface. Normals are passed over: the order of the corners tells the same.
+// STL (3D Systems 1989), as text and as binary: triangles with three positions each. Equal positions become one vertex, so the triangles
+// of a solid form one surface. Normals are ignored, because the order of the corners gives the orientation.
 #include <array>
 #include <bit>
 #include <cmath>
@@ -43,13 +43,13 @@ class StlReader {
 
  private:
   std::uint32_t vertex(const glm::dvec3& p) {
-    const std::array<double, 3> key{p.x + 0.0, p.y + 0.0, p.z + 0.0};  // minus zero is zero
+    const std::array<double, 3> key{p.x + 0.0, p.y + 0.0, p.z + 0.0};  // turns minus zero into zero
     const auto [at, fresh] = vertices_.try_emplace(key, static_cast<std::uint32_t>(model_.positions.size()));
     if (fresh) { model_.positions.push_back(p); }
     return at->second;
   }
 
-  // A header of 80 bytes that means nothing, the number of triangles, and 50 bytes for each: normal, corners, a number without meaning.
+  // A header of 80 arbitrary bytes, the number of triangles, and 50 bytes per triangle: normal, corners, an unused number.
   void binary() {
     constexpr std::size_t header = 84, size = 50, corners = 12;
     const auto place = [](std::size_t at) { return Place{0, static_cast<std::uint32_t>(at + 1)}; };
@@ -85,8 +85,8 @@ class StlReader {
     }
   }
 
-  // "solid NAME", facets of "facet normal x y z outer loop vertex x y z ... endloop endfacet", "endsolid NAME", and again. Reading ends at
-  // the first error: what stands behind it has no place in any facet.
+  // "solid NAME", facets of the form "facet normal x y z outer loop vertex x y z ... endloop endfacet", "endsolid NAME", possibly
+  // repeated. Reading ends at the first error, because what follows cannot be assigned to a facet.
   void text() {
     while (next()) {
       if (is("solid")) {
@@ -139,7 +139,7 @@ class StlReader {
   void pass_line() { word_ = lines_.words().size(); }
   [[nodiscard]] bool is(std::string_view word) const { return word_ < lines_.words().size() && same_letters(lines_.words()[word_], word); }
   bool expect(std::string_view word) { return (next() && is(word)) || fail(word); }
-  // Says that the present word is not what should stand there.
+  // Reports that the present word is not the expected one.
   bool fail(std::string_view wanted) {
     const bool ended = word_ >= lines_.words().size();
     errors_.add(lines_.place(word_),

@@ -13,7 +13,7 @@
 
 #include <radiosity/camera/tone.hpp>
 
-#if defined(__clang__)  // it shifts negative numbers
+#if defined(__clang__)  // stb_image shifts negative numbers
 #pragma clang attribute push(__attribute__((no_sanitize("undefined"))), apply_to = function)
 #endif
 #define STB_IMAGE_IMPLEMENTATION
@@ -71,22 +71,22 @@ std::shared_ptr<const Picture> Picture::of_pixels(std::uint32_t width, std::span
 
 const glm::vec4& Picture::at(glm::dvec2 place) const {
   const auto index = [](double t, std::uint32_t n) {
-    const double within = t - std::floor(t);  // NaN of what is not finite
+    const double within = t - std::floor(t);  // NaN if t is not finite
     return within >= 0.0 && within < 1.0 ? static_cast<std::size_t>(within * n) : 0;
   };
   return pixels_[index(place.y, height_) * width_ + index(place.x, width_)];
 }
 
 Picture::Part Picture::on_triangle(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c) const {
-  constexpr int rows = 4;  // of small triangles, in the middles of which the picture is taken
+  constexpr int rows = 4;  // rows of small triangles, at whose centres the picture is sampled
   glm::dvec4 sum(0.0);
   double squares = 0.0;
   for (int i = 0; i < rows; ++i) {
     for (int k = 0; k < 2 * i + 1; ++k) {
       // The small triangle k of row i points up (even k) or down.
       const double down = k % 2 == 0 ? 2.0 / 3.0 : 1.0 / 3.0;
-      const double v = (i + down) / rows;                                      // from a towards the side b c
-      const double w = (k / 2 + (k % 2 == 0 ? 1.0 / 3.0 : 2.0 / 3.0)) / rows;  // along it, at most v
+      const double v = (i + down) / rows;                                      // from a towards the side bc
+      const double w = (k / 2 + (k % 2 == 0 ? 1.0 / 3.0 : 2.0 / 3.0)) / rows;  // parallel to this side, at most v
       const glm::dvec4 pixel(at(a + (v - w) * (b - a) + w * (c - a)));
       sum += pixel;
       if (pixel.w > 0.0) { squares += glm::dot(radiosity::Color(pixel), radiosity::Color(pixel)) / pixel.w; }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Pictures on surfaces. A radiosity solver needs their mean, over all of them or over the part that lies on a polygon.
+// Pictures on surfaces. The radiosity solver only needs their mean, over the whole picture or over the part on a polygon.
 
 #include <cstdint>
 #include <map>
@@ -17,38 +17,37 @@
 
 namespace apps::intake {
 
-// At most 256 x 256 pixels, in linear light; of larger ones each pixel is the mean of a block. Each counts as far as it is opaque.
+// At most 256 x 256 pixels, in linear light; in larger pictures each pixel is the mean of a block. Pixels are weighted by their opacity.
 class Picture {
  public:
-  // Of a PNG or JPEG file. Null when it cannot be read, has more than 2^26 pixels, or lets all light through.
+  // Decodes a PNG or JPEG file. Null if it is invalid, has more than 2^26 pixels, or is completely transparent.
   [[nodiscard]] static std::shared_ptr<const Picture> read(std::string_view bytes);
-  // Of rows of pixels of four bytes each: red, green, blue in sRGB, and how opaque. Null when there are none, or they let all light
-  // through.
+  // From rows of pixels of four bytes each: red, green, blue in sRGB, and opacity. Null if there are none or all are transparent.
   [[nodiscard]] static std::shared_ptr<const Picture> of_pixels(std::uint32_t width, std::span<const std::uint8_t> rgba);
 
   [[nodiscard]] const radiosity::Color& mean() const { return mean_; }
 
   struct Part {
     radiosity::Color mean{0.0};
-    double variance = 0.0;  // within it: the mean squared distance from its mean
+    double variance = 0.0;  // within the part: the mean squared distance from its mean
   };
-  // What lies on a triangle with these texture coordinates: (0, 0) is the first corner of the first row, (1, 1) the last of the last one,
-  // beyond which the picture repeats. Taken at 16 points. The mean of all where it is transparent.
+  // The part on a triangle with these texture coordinates: (0, 0) is the start of the first row, (1, 1) the end of the last row; the
+  // picture is repeated beyond. Sampled at 16 points. If it is transparent there, the mean of the whole picture.
   [[nodiscard]] Part on_triangle(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c) const;
 
  private:
   [[nodiscard]] const glm::vec4& at(glm::dvec2 place) const;
 
   std::uint32_t width_ = 0, height_ = 0;
-  std::vector<glm::vec4> pixels_;  // the colour times how opaque it is, and that
+  std::vector<glm::vec4> pixels_;  // the colour times the opacity, and the opacity
   radiosity::Color mean_{0.0};
 };
 
-// The pictures of a file: each is read once.
+// The pictures of a file, each read only once.
 template <class Key>
 class Pictures {
  public:
-  // What read() gives, a picture or null, when it is asked for the first time.
+  // The picture or null returned by read(), which is called only at the first request.
   template <class Read>
   [[nodiscard]] const std::shared_ptr<const Picture>& of(const Key& picture, const Read& read) {
     const auto [known, is_new] = known_.try_emplace(picture);

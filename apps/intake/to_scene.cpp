@@ -27,7 +27,7 @@ namespace {
 // From the file's coordinates to metres with z up.
 glm::dmat3 to_metres(UpAxis up, double metres) {
   glm::dmat3 turn(1.0);
-  if (up == UpAxis::y) { turn = {{1, 0, 0}, {0, 0, 1}, {0, -1, 0}}; }  // columns: where x, y, z go
+  if (up == UpAxis::y) { turn = {{1, 0, 0}, {0, 0, 1}, {0, -1, 0}}; }  // columns: the images of x, y, z
   if (up == UpAxis::x) { turn = {{0, 0, 1}, {0, 1, 0}, {-1, 0, 0}}; }
   return metres * turn;
 }
@@ -121,7 +121,7 @@ class SceneMaker {
     }
   }
 
-  // Of the materials, each once.
+  // The names of the materials, each once, at most 1000.
   [[nodiscard]] std::vector<std::string_view> names() const {
     std::vector<std::string_view> list;
     for (const radiosity::Material& material : file_.scene.materials) {
@@ -130,7 +130,7 @@ class SceneMaker {
     return list;
   }
 
-  // A lamp that is no material of the file is an error: it would be missed in silence.
+  // A lamp that is not a material of the file is an error, because otherwise its absence would not be noticed.
   bool take_lamps(std::vector<std::string>& faults) {
     for (const Lamp& lamp : options_.lamps) {
       const std::vector<std::string_view> known = names();
@@ -186,8 +186,8 @@ class SceneMaker {
     file_.origins.assign(file_.scene.objects.size(), {"mesh", {}});
   }
 
-  // A sphere of a hundredth of the scene's size. One of intensity 1 brings 100 W/m2 to what is half that size away; one of I W/sr has the
-  // exitance I / radius^2.
+  // Adds a sphere of radius 1 % of the scene's size for each light. A relative intensity of 1 gives 100 W/m2 at half the scene's size;
+  // one of I W/sr has the exitance I / radius^2.
   void add_lights() {
     if (model_.lights.empty()) { return; }
     const double size = radiosity::scene_bounds(file_.scene).diameter(), radius = 0.01 * size;
@@ -205,7 +205,7 @@ class SceneMaker {
          radiosity::length_text(2.0 * radius) + " across");
   }
 
-  // Names that are there already get a number.
+  // Appends numbers to names that are already used.
   void rename() {
     std::map<std::string, std::size_t> taken;
     for (radiosity::SceneObject& object : file_.scene.objects) {
@@ -223,7 +223,7 @@ class SceneMaker {
     return std::any_of(file_.scene.objects.begin(), file_.scene.objects.end(), [&](const auto& object) { return shines_by(object); });
   }
 
-  // Where what cameras see is not lit, one is added that stands in the light.
+  // If cameras see almost no lit surface, adds one inside a lit room.
   void look_for_light() {
     constexpr std::size_t most_cameras = 16;
     const LightViews views(file_.scene);
@@ -251,8 +251,8 @@ class SceneMaker {
     if (camera) { file_.cameras.push_back(std::move(*camera)); }
   }
 
-  // The closed rooms that are seen: from outside, as a doll's house, unless there are walls with a thickness around them; else from within,
-  // by a camera of the file, or by one that is put there because there is none.
+  // The bounds of the closed rooms that can be seen: from outside, like a doll's house, unless they are within walls with a thickness;
+  // else from inside, by a camera of the file, or by an added one if there is none.
   [[nodiscard]] std::vector<raycast::Box> rooms_to_light() const {
     std::vector<raycast::Box> rooms;
     const auto seen = [&](const radiosity::Room& room) {
@@ -291,8 +291,8 @@ class SceneMaker {
     return true;
   }
 
-  // Who only wants to see a model gets a studio around it: floor, walls, and a lamp in the ceiling. In a closed room its light would not
-  // arrive.
+  // A model without any lamp is put into a studio, so that it can be seen: floor, walls, and a lamp in the ceiling. If it has closed
+  // rooms, they get lamps instead, because light from outside would not reach them.
   bool add_studio(std::vector<std::string>& faults) {
     const std::vector<std::string_view> known = names();
     const std::string advice = "--lamp MATERIAL, one of " + list_of(known);
@@ -300,11 +300,12 @@ class SceneMaker {
     if (file_.cameras.empty()) { file_.cameras.push_back(radiosity::automatic_camera(file_.scene)); }
     const raycast::Box bounds = radiosity::scene_bounds(file_.scene);
     const double size = bounds.diameter();
-    constexpr double flat = 0.01;  // what is lower than that part of its size floats above the floor, or nothing would tell it from that
+    // A model flatter than this fraction of its size is put above the floor, from which it could not be distinguished otherwise.
+    constexpr double flat = 0.01;
     const double gap = bounds.hi.z - bounds.lo.z < flat * size ? 0.1 * size : 0.0;
     const glm::dvec3 middle{bounds.centre().x, bounds.centre().y, bounds.lo.z - gap};
     const glm::dvec3 reach{1.5 * size, 1.5 * size, 0.0}, top{0.0, 0.0, 2.0 * size};
-    std::vector<glm::dvec3> lamp;  // looks down
+    std::vector<glm::dvec3> lamp;  // faces down
     for (const glm::dvec3 corner : {glm::dvec3(-1, -1, 0), glm::dvec3(-1, 1, 0), glm::dvec3(1, 1, 0), glm::dvec3(1, -1, 0)}) {
       lamp.push_back(middle + top + 0.4 * size * corner);
     }
@@ -313,7 +314,7 @@ class SceneMaker {
     file_.scene.materials.push_back({"studio lamp", radiosity::Color(0.0), radiosity::Color(100.0)});
     raycast::Placement inside;
     inside.inside = true;
-    // Before the model, so that what lies on the floor covers it.
+    // The studio comes before the model, so that objects on the floor cover it.
     auto& objects = file_.scene.objects;
     objects.insert(objects.begin(), {"studio", raycast::BoxObject::make(middle - reach, middle + reach + top).object, inside, {material}});
     if (file_.given) { file_.given->first_object = 1; }
@@ -328,11 +329,11 @@ class SceneMaker {
   const ModelOptions& options_;
   SceneFile file_;
   std::vector<std::uint8_t> two_sided_;
-  std::vector<glm::dvec3> given_positions_;  // before they were placed
+  std::vector<glm::dvec3> given_positions_;  // positions in the file
   bool given_z_up_ = false;
-  bool sides_unknown_ = false;  // the format does not say which side of an open surface is seen
+  bool sides_unknown_ = false;  // does the format not say which side of an open surface is seen?
   std::vector<radiosity::Room> rooms_;
-  std::vector<glm::dvec3> eyes_;  // of cameras that are not the model's
+  std::vector<glm::dvec3> eyes_;  // of cameras that are not part of the model
 };
 
 }  // namespace

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Wavefront OBJ: v, vt and f lines. A corner is v, v/vt, v//vn or v/vt/vn; a negative number counts back from the last vertex. Three
-// numbers behind a position are the colour of the vertex. A face belongs to the object (o), the group (g) and the material (usemtl) that
-// were named last.
+// numbers after a position are the vertex colour. A face belongs to the object (o), the group (g) and the material (usemtl) named last.
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -16,10 +15,10 @@
 namespace apps::mesh_file {
 namespace {
 
-// Statements that say nothing about the shape of the faces.
+// Statements that do not affect the shape of the faces.
 constexpr std::array<std::string_view, 14> silent{"vn",  "vp",       "s",        "mg",    "usemap",     "maplib",    "bevel",
                                                   "lod", "c_interp", "d_interp", "ctech", "shadow_obj", "trace_obj", "stech"};
-// Points, lines, curves and free-form surfaces: they are geometry, and are not read.
+// Points, lines, curves and free-form surfaces: geometry that is not read.
 constexpr std::array<std::string_view, 21> unread{"p",    "l",    "curv", "curv2", "surf", "cstype", "deg", "bmat", "step", "parm", "trim",
                                                   "hole", "scrv", "sp",   "end",   "con",  "bzp",    "cdc", "cdp",  "res",  "call"};
 
@@ -29,7 +28,7 @@ bool contains(const std::array<std::string_view, N>& list, std::string_view word
 }
 
 struct ForwardReference {
-  std::string_view word;  // its place is only looked for when there is no such vertex
+  std::string_view word;  // its place is looked up only if there is no such vertex
   std::uint32_t number;   // from 1
 };
 
@@ -64,7 +63,7 @@ class ObjReader {
   static std::string lines_of(std::string_view word, std::size_t number) {
     return std::to_string(number) + (number == 1 ? " line '" : " lines '") + std::string(word) + "'";
   }
-  // What the file has instead is told with it.
+  // Reports that there are no faces, and what the file contains instead.
   void no_faces() {
     std::string others;
     for (const auto& [word, number] : unread_) { others += (others.empty() ? "" : ", ") + lines_of(word, number); }
@@ -96,7 +95,7 @@ class ObjReader {
     }
   }
 
-  // Programs add statements of their own, such as the creases of subdivision surfaces (t) or the weights of a skeleton (vw).
+  // Counts unknown statements: programs add their own, such as the creases of subdivision surfaces (t) or the weights of a skeleton (vw).
   void foreign(std::string_view word) {
     const bool is_name = std::all_of(word.begin(), word.end(), [](char c) { return (c >= 'a' && c <= 'z') || c == '_'; });
     if (!is_name) { return fail(0, "expected a statement such as v, f or vn, found " + shown(word)); }
@@ -116,7 +115,7 @@ class ObjReader {
     }
   }
 
-  // Texture coordinates. What is no number is nowhere, as what is not there.
+  // Texture coordinates. Invalid ones count as missing.
   void place() {
     const auto number = [&](std::size_t i) { return i < lines_.words().size() ? to_number(lines_.words()[i]) : std::optional(0.0); };
     const auto u = number(1), v = number(2);
@@ -152,7 +151,7 @@ class ObjReader {
     out_.mesh.face_material.push_back(*material_);
   }
 
-  // Of a corner such as 3/1, by the texture coordinates that stand before it.
+  // The texture coordinates of a corner such as 3/1, among those defined before it.
   [[nodiscard]] glm::vec2 place_of(std::string_view word) const {
     const std::size_t slash = word.find('/');
     if (slash == word.npos || places_.empty()) { return no_place; }
@@ -169,7 +168,7 @@ class ObjReader {
     list.insert(list.end(), corner_places_.begin(), corner_places_.end());
   }
 
-  // The first number of a corner; texture and normal must be numbers, too, if they are there.
+  // The vertex number of a corner; texture and normal, if present, must be numbers as well.
   static std::optional<std::int64_t> corner(std::string_view word) {
     const auto number = to_integer(word.substr(0, word.find('/')));
     for (int slashes = 0; number && word.find('/') != std::string_view::npos; ++slashes) {
@@ -191,7 +190,7 @@ class ObjReader {
     if (object_.empty() || group_.empty()) { return object_.empty() && group_.empty() ? "mesh" : object_ + group_; }
     return object_ == group_ ? object_ : object_ + "." + group_;
   }
-  // Several files may stand on one line; a single name may have blanks.
+  // One line may name several files; a single name may contain blanks.
   void libraries() {
     std::vector<std::string>& list = out_.mesh.libraries;
     std::vector<std::string> named;
@@ -213,8 +212,8 @@ class ObjReader {
   std::optional<std::uint32_t> group_number_, material_;
   Numbers group_numbers_, material_numbers_;
   std::vector<std::uint32_t> corners_;
-  std::vector<glm::vec2> places_, corner_places_;  // of all vt lines; of the corners of a face
-  std::size_t corner_count_ = 0;                   // of all faces
+  std::vector<glm::vec2> places_, corner_places_;  // of all vt lines; of the corners of the present face
+  std::size_t corner_count_ = 0;                   // of all faces together
   std::vector<ForwardReference> forward_;
   std::map<std::string_view, std::size_t> unread_;
   std::size_t foreign_ = 0;

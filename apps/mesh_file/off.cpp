@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // OFF (Geomview): an optional keyword, the counts of vertices, faces and edges, one line per vertex, one line per face; the corners of a
-// face may go on in the next lines. Behind a position may stand a normal, then a colour, then texture coordinates, as the keyword says;
-// behind the corners of a face a colour.
+// face may continue on the next lines. According to the keyword, a position is followed by a normal, a colour and texture coordinates;
+// the corners of a face may be followed by a colour.
 #include "apps/mesh_file/reading.hpp"
 
 #include <brep/builder_input.hpp>
@@ -23,7 +23,7 @@ class OffReader {
     }
     for (std::int64_t i = 0; i < faces_ && !out_.full(); ++i) {
       if (!next("face", i, faces_)) { return; }
-      static_cast<void>(face());  // reading goes on behind a bad one
+      static_cast<void>(face());  // continues after a bad face
     }
     scale_colors(out_.mesh);
     if (lines_.next()) {
@@ -42,7 +42,7 @@ class OffReader {
     return false;
   }
 
-  // The keyword says what stands on the lines of the vertices besides positions; those in [] may be missing: [ST][C][N]OFF.
+  // The keyword says what the lines of the vertices contain besides positions, in the form [ST][C][N]OFF; the parts in [] are optional.
   bool header() {
     if (!lines_.next()) { return fail(0, "the file is empty; expected OFF"); }
     std::size_t word = 0;
@@ -88,7 +88,7 @@ class OffReader {
     if (missing() > 0) {
       const Lines line = lines_;
       while (missing() > 0 && lines_.join()) {}
-      if (missing() != 0) {  // what follows is not the rest of this line
+      if (missing() != 0) {  // the next lines do not continue this one
         lines_ = line;
         return fail(words.size(), "the face has " + std::to_string(words.size() - 1) + " of the " + std::to_string(*size) +
                                       " corners that its line promises");
@@ -105,8 +105,8 @@ class OffReader {
     color(out_.mesh.face_color, out_.mesh.face_line.size() - 1, corners_.size() + 1);
     return true;
   }
-  // The three words from `first` on, if they are numbers. A single number behind a face would be the place of its colour in a list that the
-  // file does not have.
+  // Reads a colour from three words starting at `first`, if they are numbers. A single number would be an index into a colour map that
+  // the file does not contain.
   void color(std::vector<glm::vec3>& list, std::size_t of, std::size_t first) {
     glm::dvec3 value(0.0);
     for (std::size_t k = 0; k < 3; ++k) {
@@ -120,7 +120,7 @@ class OffReader {
   Lines lines_;
   Output& out_;
   std::int64_t vertices_ = 0, faces_ = 0;
-  bool colored_ = false, normals_ = false;  // are the vertices?
+  bool colored_ = false, normals_ = false;  // have the vertices colours, and normals?
   std::vector<std::uint32_t> corners_;
 };
 
@@ -137,7 +137,7 @@ std::string write_off(const brep::Builder& builder, std::span<const MeshGroup>) 
   return out;
 }
 
-// "OFF" with the letters that say what else its vertices have.
+// "OFF" with the letters for the additional data of its vertices.
 bool begins_off(std::span<const std::string_view, 3> words, bool first) {
   return first && words[0].size() <= 8 && words[0].ends_with("OFF") && words[0].find_first_not_of("STCN4nOF") == std::string_view::npos;
 }

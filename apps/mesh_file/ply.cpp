@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// PLY (Turk 1994): a header that declares elements and their properties, then the values, as text or binary in either byte order. Of the
-// element vertex x, y and z are read, of the elements face and tristrips the list vertex_indices (or vertex_index), of both red, green and
-// blue; the rest is stepped over. A list of triangle strips has -1 between them.
+// PLY (Turk 1994): a header declares elements and their properties; then come the values, as text or as binary in either byte order. Read
+// are x, y and z of the element vertex, the list vertex_indices (or vertex_index) of the elements face and tristrips, and red, green and
+// blue of vertex and face; everything else is skipped. In a list of triangle strips, -1 separates them.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -39,12 +39,12 @@ class PlyReader {
     if (!header() || !check_header()) { return; }
     at_ = lines_.consumed();
     for (const Element& element : elements_) {
-      // An element without values takes no room, so its count cannot be checked against the file: it is passed over.
+      // An element without properties takes no space, so its count cannot be checked against the size of the file: it is skipped.
       for (std::uint64_t i = 0; i < element.count && !element.properties.empty(); ++i) {
         if (out_.full() || !(text_ ? text_element(element, i) : binary_element(element, i))) { return; }
       }
     }
-    if (out_.good() && out_.mesh.builder.face_count() == 0) {  // strips in which a corner stands twice in every triangle
+    if (out_.good() && out_.mesh.builder.face_count() == 0) {  // strips in which every triangle has a repeated corner
       out_.error(text_ ? lines_.place(0) : Place{0, static_cast<std::uint32_t>(at_)}, no_faces_in(vertices_));
     }
     scale_colors(out_.mesh);
@@ -158,7 +158,7 @@ class PlyReader {
     return true;
   }
 
-  // --- values, the same way from text and binary files
+  // --- values, handled in the same way for text and binary files
   void take(const Element& element, Place place) {
     if (element.name == "vertex") {
       if (!std::isfinite(position_.x) || !std::isfinite(position_.y) || !std::isfinite(position_.z)) {
@@ -184,7 +184,8 @@ class PlyReader {
     out_.mesh.builder.face(corners, 0);
     if (text_) { out_.mesh.face_line.push_back(place.line); }
   }
-  // Every second triangle runs the other way round. A corner that stands twice turns the strip and makes triangles that are none.
+  // Every second triangle of a strip has the opposite orientation. A repeated corner reverses the strip and makes degenerate triangles,
+  // which are skipped.
   void strip(std::span<const std::uint32_t> corners, Place place) {
     for (std::size_t i = 2; i < corners.size(); ++i) {
       const std::uint32_t a = corners[i - 2], b = corners[i - 1], c = corners[i];
@@ -197,7 +198,7 @@ class PlyReader {
     using Role = Property::Role;
     return name == "red" ? Role::red : name == "green" ? Role::green : name == "blue" ? Role::blue : Role::other;
   }
-  // Integers say how much of the largest one of their type it is.
+  // Integers are colours relative to the largest value of their type.
   void set_number(const Property& property, double value) {
     using Role = Property::Role;
     if (property.role >= Role::x && property.role <= Role::z) {
@@ -286,7 +287,7 @@ class PlyReader {
     return true;
   }
 
-  // The next value; the caller has looked whether it is there.
+  // The next value; the caller must have checked that it exists.
   double value(Type type) {
     const double number = ply::number_at(bytes_, at_, type, big_);
     at_ += size_of(type);
@@ -299,9 +300,9 @@ class PlyReader {
   bool text_ = true, big_ = false;
   std::vector<Element> elements_;
   std::uint64_t vertices_ = 0;
-  std::size_t at_ = 0;  // in a binary file
+  std::size_t at_ = 0;  // position in a binary file
   glm::dvec3 position_{0.0}, color_{0.0};
-  int colors_ = 0;  // numbers of it that the present element has
+  int colors_ = 0;  // number of colour components that the present element has
   static constexpr std::uint32_t between_strips = std::numeric_limits<std::uint32_t>::max();
   std::vector<std::uint32_t> corners_;
 };
@@ -311,7 +312,7 @@ void read_ply(std::string_view bytes, Output& out) { PlyReader(bytes, out).run()
 std::string write_ply(const brep::Builder& builder, std::span<const MeshGroup>) {
   std::size_t most = 0;
   for (std::uint32_t f = 0; f < builder.face_count(); ++f) { most = std::max(most, builder.corners(f).size()); }
-  const bool wide = most > 255;  // more corners than a byte counts
+  const bool wide = most > 255;  // more corners than fit into a byte
   std::string out =
       ply_header({}, {{"vertex", builder.vertex_count(), {"double x", "double y", "double z"}},
                       {"face", builder.face_count(), {wide ? "list int int vertex_indices" : "list uchar int vertex_indices"}}});

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The types of numbers in PLY files (Turk 1994), and their values in binary ones.
+// The number types of PLY files (Turk 1994), and their values in binary files.
 
 #include <array>
 #include <bit>
@@ -36,7 +36,7 @@ inline std::optional<Type> type_of(std::string_view name) {
 constexpr std::size_t size_of(Type type) { return std::array<std::size_t, 8>{1, 1, 2, 2, 4, 4, 4, 8}[static_cast<std::size_t>(type)]; }
 constexpr bool is_float(Type type) { return type >= Type::float32; }
 
-// The number that begins at this byte. Every type fits into a double.
+// The number that begins at this byte. Every type can be represented exactly as a double.
 inline double number_at(std::string_view bytes, std::size_t at, Type type, bool big_endian) {
   const std::uint64_t bits = bits_at(bytes, at, size_of(type), big_endian);
   switch (type) {

@@ -15,7 +15,7 @@ constexpr bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c
 
 constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
 
-// Of `at`, counted from 1. Bytes that continue a UTF-8 character are not counted.
+// The column of `at`, counted from 1. Continuation bytes of UTF-8 characters are not counted.
 std::uint32_t column(const char* start, const char* at) {
   return static_cast<std::uint32_t>(1 + std::count_if(start, at, [](char c) { return (static_cast<unsigned char>(c) & 0xc0U) != 0x80U; }));
 }

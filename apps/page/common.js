@@ -7,8 +7,8 @@ const element = (tag, text, kind) => {
   return e;
 };
 
-// The controls of a page that is gone through step by step: buttons, slider, keys. `count` and `at` tell how many steps there are and which is
-// shown, `show` shows one; `time` passes from one to the next when it plays, `page` steps lie between pages.
+// The controls of a page with steps: buttons, slider, keys. `count` and `at` return the number of steps and the present one, `show` shows
+// one; `time` is the interval between steps while playing, `page` the number of steps that a page key moves.
 function stepper({count, at, show, time, page}) {
   let timer = null;
   const play = on => {

@@ -103,7 +103,7 @@ Made Builder::make(const ObjectSyntax& object) {
   return made;
 }
 
-// One material for every sheet of every leaf, in their order: the leaf's own, or that of the nearest statement around it.
+// Appends one material for every sheet of every leaf, in order: that of the leaf, or of the nearest enclosing statement that has one.
 void Builder::operand_materials(const ObjectSyntax& object, const Name* around, const CsgShape& csg, std::size_t& leaf,
                                 std::vector<std::uint32_t>& out) {
   if (is_csg(*object.kind)) {
@@ -127,14 +127,14 @@ std::optional<std::uint32_t> Builder::material_index(const Name& name) {
   return std::nullopt;
 }
 
-// Sheets by name; where the sheets of a shape have no names of their own, numbers alone serve.
+// Sheets by name; sheets without names are known by their numbers only.
 static SheetNames sheet_names(const raycast::Object& shape) {
   SheetNames names;
   for (std::uint32_t i = 0; i < shape.sheet_count(); ++i) { names.emplace(shape.sheet_name(i), i); }
   return names;
 }
 
-// The sheet by its name or number; sheet_count() after an error.
+// Finds the sheet by its name or number; sheet_count() after an error.
 std::uint32_t Builder::sheet_index(const Name& sheet, const raycast::Object& shape, const SheetNames& names) {
   const std::uint32_t count = shape.sheet_count();
   const std::string_view text = sheet.text;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// From the statements of a scene to its objects: every object is made once, then placed as often as its group is used.
+// Builds objects from the statements of a scene: every object is made once, then placed as often as its group is used.
 
 #include <cstddef>
 #include <cstdint>
@@ -30,11 +30,11 @@ namespace apps::scene_file {
 
 // --- groups (groups.cpp)
 //
-// Which group uses which. A group that uses itself, however indirectly, is refused; so is nesting beyond
-// max_use_depth and a scene that would grow beyond max_objects: both are found by counting, before anything is placed. An operand that is a
-// use stands for the union of what is in the group.
+// The use of groups by other groups. A group that uses itself, directly or indirectly, is refused; so is nesting beyond max_use_depth and
+// a scene with more than max_objects objects: both are found by counting, before anything is placed. A use among the operands of a solid
+// represents the union of the group's objects.
 
-// Operands that uses may give one solid: uses of uses multiply, and the solid is evaluated while the file is read.
+// Maximal number of operands that uses may add to one solid: nested uses multiply, and the solid is evaluated while the file is read.
 inline constexpr std::size_t max_used_operands = 2000;
 
 class Groups {
@@ -44,11 +44,11 @@ class Groups {
 
   // The group of this name, or null.
   [[nodiscard]] const GroupSyntax* find(const Name& group) const;
-  // Objects that one use of the group places; saturates above max_objects.
+  // Number of objects that one use of the group places; saturates above max_objects.
   [[nodiscard]] std::size_t size(const GroupSyntax& group) const;
 
-  // Gives the uses among the operands of a union, intersection or difference, and among their operands, the objects of their groups.
-  // False after an error: unknown groups, cycles, nesting that is too deep, too many operands.
+  // Replaces uses among the operands of a union, intersection or difference, also nested ones, by the objects of their groups. False
+  // after an error: unknown groups, cycles, too deep nesting, too many operands.
   bool expand(ObjectSyntax& syntax, Errors& errors) const;
 
  private:
@@ -60,7 +60,7 @@ class Groups {
   };
   void visit(std::size_t root, Errors& errors);
   struct Expansion {
-    std::vector<const GroupSyntax*> open;  // around the operand
+    std::vector<const GroupSyntax*> open;  // that contain the operand
     std::size_t operands = 0;
   };
   bool expand(ObjectSyntax& syntax, std::size_t depth, Expansion& expansion, Errors& errors) const;
@@ -71,25 +71,25 @@ class Groups {
   std::vector<Entry> entries_;  // one per group
 };
 
-// The statements of a scene as a graph (apps/graph_walk.hpp): under the root lie those of the file, under a use those of its group. Each
-// node keeps its placement and its name to what lies below it.
+// The statements of a scene as a graph (apps/graph_walk.hpp): the children of the root are the statements of the file, those of a use are
+// the statements of its group. The placement and name prefix of a node hold only for its descendants.
 //
-// Is told of an object as often as it is used: with the names of the uses around it, "first.", their placement, and the place of the
-// statement of the file.
+// Called once for every use of an object, with the names of the uses around it ("first."), their placement, and the place of the
+// outermost statement in the file.
 using PlaceObject = std::function<void(const ObjectSyntax& object, const std::string& prefix, const raycast::Placement& outer, Place at)>;
 
-// Walks all uses in the order of the file; ends at the first error, or when the scene grows beyond max_objects.
+// Walks all uses in the order of the file; ends at the first error, or if the scene exceeds max_objects.
 void place_all(const std::vector<Item>& items, const Groups& groups, Errors& errors, const PlaceObject& place);
 
-// --- the whole
+// --- the whole scene
 
-// The scene of the statements. Not to be used when errors were added.
+// The scene of the statements; invalid if errors were added.
 [[nodiscard]] SceneFile build(const SceneSyntax& syntax, const SideFile& side_file, Errors& errors);
 
-// A camera whose syntax is sound, with its direction upwards.
+// A camera from valid syntax, with its up direction.
 [[nodiscard]] radiosity::Camera make_camera(const CameraSyntax& syntax, Errors& errors);
 
-// (csg.cpp) A union, intersection or difference, and the shapes of its leaves in the order of the file, whose sheets are its sheets.
+// (csg.cpp) A union, intersection or difference, and the shapes of its leaves in the order of the file. Its sheets are those of the leaves.
 struct CsgShape {
   Shape whole;  // null after an error
   std::vector<Shape> leaves;
@@ -98,32 +98,33 @@ struct CsgShape {
 
 // --- meshes from files of other programs (build_meshes.cpp)
 //
-// What encloses a camera or a lamp of the scene is seen from inside, as within a file of its own: so a mesh is made anew where one of them
-// lies within its bounds. A mesh of a group is made twice at most, for its uses with and without something within.
+// Polygons around a camera or a lamp of the scene are seen from inside, as they would be within their own file, so a mesh is made again
+// if one of them lies within its bounds. A mesh of a group is made at most twice, for uses with and without a camera or lamp inside.
 
-// The objects of the file, in its own coordinates, as to_part() has them. Nothing after an error.
+// The objects of the file, in its own coordinates, made by to_part(). Nothing after an error.
 [[nodiscard]] std::optional<SceneFile> mesh_from_file(const ObjectSyntax& object, const SideFile& side_file,
                                                       const std::vector<glm::dvec3>& eyes, Errors& errors);
 
-// Around all parts of a mesh.
+// The bounds of all parts of a mesh.
 [[nodiscard]] raycast::Box bounds_of(const std::vector<radiosity::SceneObject>& parts);
 
-// The point in the coordinates of what is placed; nothing when the placement has no inverse.
+// The point in the coordinates before the placement; nothing if the placement is not invertible.
 [[nodiscard]] std::optional<glm::dvec3> point_within(const raycast::Placement& placement, const glm::dvec3& point);
 
-// Points of a scene that must be seen: the eyes of cameras, and places before lamps.
+// Points of a scene that must be visible: the eyes of cameras, and points in front of lamps.
 class Eyes {
  public:
   void add(const radiosity::Camera& camera) { points_.push_back({camera.eye, nullptr, count_++}); }
-  // A point before each sheet of the object that shines. `of`: the statement that it comes from.
+  // Adds a point in front of each emitting sheet of the object. `of`: the statement from which it comes.
   void add_lamps(const radiosity::SceneObject& placed, const std::vector<radiosity::Material>& materials, const ObjectSyntax* of);
 
-  // Something that may be a room around others, with its bounds in the scene.
+  // Adds an object that may be a room around others, with its bounds in the scene.
   void add_room(const raycast::Box& bounds, const ObjectSyntax* of) { rooms_.push_back({bounds, of}); }
 
-  // Those in this box of a mesh, in the coordinates of the mesh. Of its own lamps the file itself tells. A lamp counts when half of its
-  // points are there: one that stands on a thing has its foot in it. One that reaches out of the mesh pierces a thing, as a bracket does a
-  // column, where something at least twice as large holds both; else the mesh is a room, and the lamp is let into its wall.
+  // The points in this box of a mesh, in the coordinates of the mesh. The mesh's own lamps are excluded, because its file takes account
+  // of them. A lamp counts if at least half of its points are there: one that stands on an object may reach into it. A lamp partly
+  // outside the mesh pierces an object, as a bracket does a column, if some object at least twice as large contains both; otherwise the
+  // mesh is a room and the lamp is set into its wall.
   [[nodiscard]] std::vector<glm::dvec3> within(const raycast::Box& box, const raycast::Placement& placement,
                                                const ObjectSyntax* mesh) const;
 
@@ -137,23 +138,23 @@ class Eyes {
   struct Point {
     glm::dvec3 position{0.0};
     const ObjectSyntax* of = nullptr;
-    std::size_t lamp = 0;  // number of its camera or lamp
+    std::size_t lamp = 0;  // number of the camera or lamp to which it belongs
   };
-  std::vector<Point> points_;  // those of a lamp in a row
+  std::vector<Point> points_;  // points of one lamp are adjacent
   std::vector<Room> rooms_;
-  std::size_t count_ = 0;  // of cameras and lamps
+  std::size_t count_ = 0;  // number of cameras and lamps
 };
 
 // --- the builder
 
-// An object with its shape and materials, made once however often its group is used.
+// An object with its shape and materials, made once, however often its group is used.
 struct Made {
   std::shared_ptr<const raycast::Object> shape;
   std::vector<std::uint32_t> material;
-  // Of a mesh from a file, in place of one shape: its parts, and how they are where a camera or a lamp lies among them (empty: no other).
+  // For a mesh from a file, instead of `shape`: its parts, and those for uses with a camera or lamp inside (empty: the same).
   std::vector<radiosity::SceneObject> parts = {}, around_eyes = {};
   std::vector<std::string> notes = {};
-  std::uint32_t first_material = 0;  // of the file, in the scene
+  std::uint32_t first_material = 0;  // index in the scene of the first material of the file
 };
 
 using SheetNames = std::unordered_map<std::string_view, std::uint32_t>;

@@ -47,7 +47,7 @@ std::optional<SceneFile> mesh_from_file(const ObjectSyntax& object, const SideFi
   }
   if (!read.model) { return std::nullopt; }
   read.model->name_file(file.text);
-  if (object.material) {  // in the place of what the file says or leaves open
+  if (object.material) {  // replaces the materials of the file
     for (ModelMaterial& material : read.model->materials) { material.reflectance = radiosity::Color(0.0); }
   }
   std::vector<std::string> faults;
@@ -73,7 +73,7 @@ std::optional<glm::dvec3> point_within(const raycast::Placement& placement, cons
 }
 
 void Eyes::add_lamps(const radiosity::SceneObject& placed, const std::vector<radiosity::Material>& materials, const ObjectSyntax* of) {
-  constexpr double before = 1e-4;  // of the lamp's size: a lamp may lie on a wall
+  constexpr double before = 1e-4;  // relative to the size of the lamp, which may lie on a wall
   const raycast::PlacedObject object(placed.shape, placed.placement);
   const raycast::Box box = object.bounds();
   for (std::uint32_t sheet = 0; sheet < placed.shape->sheet_count() && points_.size() < most; ++sheet) {
@@ -85,7 +85,7 @@ void Eyes::add_lamps(const radiosity::SceneObject& placed, const std::vector<rad
   ++count_;
 }
 
-// Does something hold the mesh, which has these bounds in the scene and fills at most half of it, and all these points?
+// Does some object contain all these points and the mesh with these bounds, and has at least twice its volume?
 bool Eyes::larger_room(const raycast::Box& mesh, std::size_t first, std::size_t end, const ObjectSyntax* of) const {
   const auto volume = [](const raycast::Box& box) { return box.size().x * box.size().y * box.size().z; };
   return std::any_of(rooms_.begin(), rooms_.end(), [&](const Room& room) {
@@ -97,14 +97,14 @@ bool Eyes::larger_room(const raycast::Box& mesh, std::size_t first, std::size_t 
 }
 
 std::vector<glm::dvec3> Eyes::within(const raycast::Box& box, const raycast::Placement& placement, const ObjectSyntax* mesh) const {
-  const raycast::Box inner = box.grown(-1e-9 * box.diameter());  // what lies on its sides is not within
+  const raycast::Box inner = box.grown(-1e-9 * box.diameter());  // points on its sides are not inside
   raycast::Box placed;
   for (int k = 0; k < 8; ++k) {
     const glm::dvec3 corner{(k & 1 ? box.hi : box.lo).x, (k & 2 ? box.hi : box.lo).y, (k & 4 ? box.hi : box.lo).z};
     placed.extend(placement.linear * corner + placement.translation);
   }
   std::vector<glm::dvec3> list;
-  std::vector<glm::dvec3> its;  // of one camera or lamp
+  std::vector<glm::dvec3> its;  // the points of one camera or lamp that are inside
   for (std::size_t i = 0, first = 0; i < points_.size(); ++i) {
     const Point& point = points_[i];
     if (point.lamp != points_[first].lamp) { first = i; }
@@ -121,7 +121,7 @@ std::vector<glm::dvec3> Eyes::within(const raycast::Box& box, const raycast::Pla
 
 namespace {
 
-// Do the parts show the same sides: was there nothing new to see?
+// Do the parts show the same sides, so that there is nothing new to see?
 bool same_sides(const std::vector<radiosity::SceneObject>& a, const std::vector<radiosity::SceneObject>& b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const radiosity::SceneObject& one, const radiosity::SceneObject& other) {
     if (one.placement.inside != other.placement.inside || one.shape->sheet_count() != other.shape->sheet_count()) { return false; }
@@ -136,13 +136,13 @@ bool same_sides(const std::vector<radiosity::SceneObject>& a, const std::vector<
 
 }  // namespace
 
-// Is it a statement of the scene itself, and not of a group?
+// Is it a statement of the scene itself, not of a group?
 bool Builder::stands_alone(const ObjectSyntax& object) const {
   const auto own = [&](const Item& item) { return std::get_if<ObjectSyntax>(&item) == &object; };
   return std::any_of(syntax_.items.begin(), syntax_.items.end(), own);
 }
 
-// The eyes of the cameras in the coordinates of a mesh that stands in the scene itself. Where a group stands is not known yet.
+// The eyes of the cameras in the coordinates of a mesh of the scene itself; empty for a mesh of a group, whose placement is not known yet.
 std::vector<glm::dvec3> Builder::eyes_of(const ObjectSyntax& object) const {
   std::vector<glm::dvec3> eyes;
   if (!stands_alone(object)) { return eyes; }
@@ -152,7 +152,8 @@ std::vector<glm::dvec3> Builder::eyes_of(const ObjectSyntax& object) const {
   return eyes;
 }
 
-// The objects of a file of another program, in its own coordinates. Its materials are added to the scene's, under the name of the mesh.
+// Reads the objects of a file of another program, in its own coordinates. Adds its materials to the scene, prefixed by the name of the
+// mesh.
 Made Builder::make_from_file(const ObjectSyntax& object) {
   Made made;
   auto part = mesh_from_file(object, side_file_, eyes_of(object), errors_);
@@ -169,7 +170,7 @@ Made Builder::make_from_file(const ObjectSyntax& object) {
   return made;
 }
 
-// `first`: the number of the first material of the file in the scene.
+// Assigns the scene's materials to the parts. `first`: index in the scene of the file's first material.
 void Builder::take_parts(SceneFile part, const ObjectSyntax& object, std::uint32_t first, std::vector<radiosity::SceneObject>& parts) {
   const auto whole = object.material ? material_index(*object.material) : std::nullopt;
   for (radiosity::SceneObject& its : part.scene.objects) {
@@ -179,7 +180,7 @@ void Builder::take_parts(SceneFile part, const ObjectSyntax& object, std::uint32
   parts = std::move(part.scene.objects);
 }
 
-// Makes those meshes anew among which there is a camera or a lamp that was not known when they were made.
+// Makes those meshes again that contain a camera or lamp that was not known when they were made.
 void Builder::see_from_inside() {
   if (std::none_of(made_.begin(), made_.end(), [](const auto& made) { return !made.second.parts.empty(); })) { return; }
   for (const radiosity::Camera& camera : file_.cameras) { eyes_.add(camera); }
@@ -187,7 +188,7 @@ void Builder::see_from_inside() {
   each([&](const ObjectSyntax& object, const std::string&, const raycast::Placement& outer, Place) {
     const Made& made = made_.at(&object);
     raycast::Placement placement = raycast::compose(outer, object.placement);
-    if (raycast::check(placement)) { return; }  // that is told when it is placed
+    if (raycast::check(placement)) { return; }  // reported when it is placed
     for (const radiosity::SceneObject& part : made.parts) {
       eyes_.add_lamps({{}, part.shape, raycast::compose(placement, part.placement), part.material}, file_.scene.materials, &object);
     }

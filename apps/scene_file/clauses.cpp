@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The clauses of statements: what may follow each keyword, and the checks that need one clause alone.
+// The clauses of statements: what may follow each keyword, and the checks that concern one clause only.
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -17,13 +17,13 @@
 namespace apps::scene_file {
 namespace {
 
-// `after` applied to what `placement` gives.
+// Appends the linear map `after` to the placement.
 void append(raycast::Placement& placement, const glm::dmat3& after) {
   placement.linear = after * placement.linear;
   placement.translation = after * placement.translation;
 }
 
-// Rodrigues' rotation about a unit axis, counter-clockwise seen against the axis. Quarter turns are exact.
+// Rodrigues' rotation about a unit axis, counter-clockwise seen from the tip of the axis. Quarter turns are exact.
 glm::dmat3 rotation(const glm::dvec3& axis, double degrees) {
   const double turn = std::remainder(degrees, 360.0);
   const double angle = turn * std::numbers::pi / 180.0;
@@ -44,7 +44,7 @@ glm::dmat3 rotation(const glm::dvec3& axis, double degrees) {
 
 }  // namespace
 
-// One number that stands for all three, or three; `read` reads each. False after an error about how many there are.
+// Parses one number, which counts for all three, or three; `read` reads each. False after an error about their number.
 template <class Read>
 bool Parser::one_or_three(const Token& keyword, const char* names, glm::dvec3& out, const Read& read) {
   int count = 0;
@@ -177,7 +177,7 @@ void Parser::face_clause(const Token& keyword, ObjectSyntax& out) {
   out.faces.push_back(face);
 }
 
-// A clause that the table of the grammar gives to this kind of object.
+// Parses a clause that the grammar table gives to this kind of object.
 void Parser::own_clause(const Token& keyword, Form form, ObjectSyntax& out) {
   Given given{keyword.text, form == Form::vector ? keyword.place : token_.place, {}};
   if (form == Form::face) { return face_clause(keyword, out); }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Unions, intersections and differences. A file of its own: no other one needs brep/csg.
+// Unions, intersections and differences. A separate file, because no other one needs brep/csg.
 #include <string>
 #include <unordered_map>
 #include <utility>
@@ -18,8 +18,8 @@ class Operands {
  public:
   Operands(CsgShape& out, Errors& errors) : out_(out), errors_(errors) {}
 
-  // The tree of the statement; without solid or parts after an error. It is at most max_use_depth deep. Leaves are called by the way to
-  // them; `prefix` is the part of it above the statement.
+  // The tree of the statement, at most max_use_depth deep; without solid or parts after an error. The name of a leaf is its path;
+  // `prefix` is the path to the statement.
   raycast::CsgNode node(const ObjectSyntax& syntax, const std::string& prefix, bool root) {
     raycast::CsgNode result;
     result.name = prefix + syntax.name.text;

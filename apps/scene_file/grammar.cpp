@@ -25,7 +25,7 @@ WordList words_of(const ObjectKind& kind) {
   };
   operands(true);
   words.push_back("use");
-  operands(false);  // read, so that what is wrong with them can be said
+  operands(false);  // accepted here, so that the error message can say what is wrong with them
   return words;
 }
 

@@ -91,7 +91,7 @@ void Groups::report_unknown(const Name& group, Errors& errors) const {
   errors.add(group.place, "there is no group " + in_quotes(group.text) + suggestion(group.text, known));
 }
 
-// Depth-first with its own stack; a group is done after all that it uses.
+// Depth-first search with an explicit stack; a group is done after all groups that it uses.
 void Groups::visit(std::size_t root, Errors& errors) {
   struct Step {
     std::size_t group;
@@ -146,7 +146,7 @@ class Uses {
   struct State {
     std::string prefix;
     raycast::Placement placement;
-    std::optional<Place> at;  // of the statement of the file, once within one
+    std::optional<Place> at;  // of the outermost statement in the file; nothing above it
   };
   Uses(const std::vector<Item>& items, const Groups& groups, Errors& errors, const PlaceObject& place)
       : items_(items), groups_(groups), errors_(errors), place_(place) {}
@@ -195,7 +195,7 @@ void place_all(const std::vector<Item>& items, const Groups& groups, Errors& err
   Uses uses(items, groups, errors, place);
   Uses::State state;
   const Item* const root = nullptr;
-  // Every use leads to an object, so that most_visits is never reached; what ends the walk is among the errors.
+  // Every use leads to an object, so most_visits is never reached; if the walk ends early, the reason is among the errors.
   static_cast<void>(GraphWalk<Uses, Uses::State>(uses, {max_use_depth + 2, 2 * max_use_depth * max_objects}).visit(root, state));
 }
 

@@ -14,7 +14,7 @@ constexpr bool ends_line(char c) { return c == '\n' || c == '\r'; }
 constexpr bool ends_token(char c) { return is_blank(c) || ends_line(c) || c == '#' || c == '{' || c == '}'; }
 constexpr bool begins_number(char c) { return (c >= '0' && c <= '9') || c == '-' || c == '+' || c == '.'; }
 
-// Length in bytes of the character that begins at text[at]; 0 when it is not text.
+// Length in bytes of the character that begins at text[at]; 0 if it is invalid.
 std::size_t character_length(std::string_view text, std::size_t at) {
   const auto byte = static_cast<unsigned char>(text[at]);
   const bool control = (byte < 0x20 && byte != '\t' && byte != '\n' && byte != '\r') || byte == 0x7f;
@@ -28,7 +28,7 @@ Lexer::Lexer(std::string_view text, Errors& errors) : text_(text), errors_(error
   if (text_.substr(0, 3) == byte_order_mark) { text_.remove_prefix(3); }
 }
 
-// Steps over one character, or ends the text when there is none.
+// Advances by one character; ends the text if it is invalid.
 void Lexer::advance() {
   const std::size_t length = character_length(text_, at_);
   if (length == 0) {
@@ -71,7 +71,7 @@ Token Lexer::next() {
   }
   const std::size_t begin = at_;
   const Place place = place_;
-  if (c == '"') {  // up to the closing mark, or the end of the line
+  if (c == '"') {  // up to the closing quote or the end of the line
     do { advance(); } while (!at_end() && text_[at_] != '"' && !ends_line(text_[at_]));
     if (!at_end() && text_[at_] == '"') { advance(); }
     return {Token::Kind::word, text_.substr(begin, at_ - begin), place};

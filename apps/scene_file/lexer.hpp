@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Cuts scene text into tokens. Spaces and tabs separate; '#' begins a comment that runs to the end of the line;
-// lines end with LF, CR LF or CR. Text is UTF-8; a byte that cannot be text (NUL and other control characters,
-// broken UTF-8) is reported once, and the text ends there: what follows would be noise.
+// Divides scene text into tokens. Spaces and tabs separate them; '#' begins a comment that extends to the end of the line;
+// lines end with LF, CR LF or CR. Text is UTF-8; an invalid byte (NUL and other control characters, broken UTF-8) is reported
+// once and ends the text, because what follows would be meaningless.
 //
-// A token that begins with a digit, sign or point is a number for the parser to read; any other one is a word. What stands in double quotes
-// is one word, blanks and all.
+// A token that begins with a digit, sign or point is a number, which the parser reads; any other one is a word. Text in double quotes is
+// one word, including blanks.
 
 #include <string>
 #include <string_view>
@@ -27,7 +27,7 @@ class Lexer {
   Lexer(std::string_view text, Errors& errors);
 
   [[nodiscard]] Token next();
-  // The text was given up at a byte that is not text; the error has been reported.
+  // Did the text end at an invalid byte? The error has been reported.
   [[nodiscard]] bool broken() const { return broken_; }
 
  private:
@@ -46,7 +46,7 @@ class Lexer {
 // The text in quotes for a message; at most 40 characters of it.
 [[nodiscard]] std::string in_quotes(std::string_view text);
 
-// What a token is, for "found ...": 'reflectence', the number 3, the end of the line.
+// A description of the token after "found": 'reflectence', the number 3, the end of the line.
 [[nodiscard]] std::string describe(const Token& token);
 
 [[nodiscard]] std::string to_string(Place place);

@@ -53,13 +53,13 @@ void Parser::unknown_statement() {
   if (at(Token::Kind::end_of_line)) { next(); }
 }
 
-// Reads clauses to the end of the statement's line, or of the block that opens on it. Leaves a '}' that closes no
-// block of this statement to the caller.
+// Reads clauses to the end of the statement's line, or of the block opened on it. A '}' that does not close a block of this
+// statement is left to the caller.
 template <class Clause>
 void Parser::clauses(std::string_view statement, Words known, Clause&& clause) {
   std::optional<Place> block;
   bool line_begins = false;
-  std::vector<std::optional<Place>> given(known.size());  // where each word stands last
+  std::vector<std::optional<Place>> given(known.size());  // by word: its last place
   while (true) {
     const bool first_of_line = std::exchange(line_begins, false);
     if (at(Token::Kind::end_of_file)) { return block ? unclosed(*block) : void(); }
@@ -82,7 +82,7 @@ void Parser::clauses(std::string_view statement, Words known, Clause&& clause) {
     } else if (at(Token::Kind::word) && contains(known, token_.text) && (block || !is_operand(token_.text))) {
       const Token keyword = token_;
       std::optional<Place>& earlier = given[static_cast<std::size_t>(std::find(known.begin(), known.end(), keyword.text) - known.begin())];
-      line_begins = is_operand(keyword.text);  // an operand reads the end of its line, too
+      line_begins = is_operand(keyword.text);  // an operand also reads the end of its line
       if (earlier && !line_begins && !is_repeatable(keyword.text)) {
         error(keyword.place, in_quotes(keyword.text) + " is given twice; the first one stands at " + to_string(*earlier));
       }
@@ -135,7 +135,7 @@ void Parser::camera(SceneSyntax& out) {
   out.cameras.push_back(std::move(syntax));
 }
 
-// Nothing when there is no name. `depth`: unions, intersections and differences around it.
+// Nothing if there is no name. `depth`: number of unions, intersections and differences around it.
 std::optional<ObjectSyntax> Parser::object(const ObjectKind& kind, std::size_t depth) {
   const std::size_t before = errors_.count();
   ObjectSyntax syntax;
@@ -166,7 +166,7 @@ void Parser::operand(const ObjectKind& kind, ObjectSyntax& out, std::size_t dept
   if (auto read = object(kind, depth)) { out.operands.push_back(std::move(*read)); }
 }
 
-// What each kind of object cannot be without. Operands may get their material from around.
+// Reports missing clauses. Operands may get their material from the statement around them.
 void Parser::require_clauses(const ObjectSyntax& object, bool operand) {
   const ObjectKind& kind = *object.kind;
   const auto require = [&](bool given, const std::string& what) {
@@ -189,7 +189,7 @@ void Parser::require_clauses(const ObjectSyntax& object, bool operand) {
   if (!operand) { require(object.material.has_value() || !object.sheets.empty(), "'material'"); }
 }
 
-// Nothing when there is no group or no name.
+// Nothing if the name or the group is missing.
 std::optional<UseSyntax> Parser::use() {
   const std::size_t before = errors_.count();
   UseSyntax syntax;

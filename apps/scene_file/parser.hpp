@@ -2,11 +2,11 @@
 #pragma once
 
 // Reads tokens into statements. The grammar (examples/scenes/README.md) needs one token of look-ahead. Braces of groups and clauses are
-// loops, so a million of them cost no stack; operands of unions, intersections and differences are read by recursion, 64 deep at most.
+// handled by loops, so a million of them use no stack; operands of unions, intersections and differences by recursion, at most 64 deep.
 //
-// Recovery: after an error the rest of the line is skipped; inside a block reading goes on with the next line. An
-// unexpected block is skipped to its closing brace. A word that can only begin a statement, at the beginning of a
-// line inside a block, shows that a closing brace is missing.
+// Recovery: after an error the rest of the line is skipped; inside a block reading continues with the next line. An unexpected
+// block is skipped up to its closing brace. If a line inside a block begins with a word that can only begin a statement, a
+// closing brace is missing.
 
 #include <cstddef>
 #include <optional>
@@ -64,9 +64,9 @@ class Parser {
   // Tokens.
   void next();
   void skip_rest();       // up to a brace or the end of the line
-  void skip_statement();  // the rest of the line with the block that it opens
-  void skip_block();      // from '{' to behind its '}'
-  void skip_to_next();    // the rest of the statement, and the end of the line
+  void skip_statement();  // the rest of the line and the block that it opens
+  void skip_block();      // from '{' to its '}', inclusive
+  void skip_to_next();    // the rest of the statement and the end of the line
   void expect_end_of_line();
   void unclosed(Place opened);
   void error(Place place, std::string sentence) { errors_.add(place, std::move(sentence)); }
@@ -76,7 +76,7 @@ class Parser {
   Errors& errors_;
   Lexer lexer_;
   Token token_;
-  std::size_t digits_ = 0;  // significant digits of the number that was written with most, since this was set to 0
+  std::size_t digits_ = 0;  // largest number of significant digits of a number read since it was set to 0
 };
 
 }  // namespace apps::scene_file

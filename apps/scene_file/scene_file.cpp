@@ -39,10 +39,10 @@ std::optional<radiosity::Camera> parse_camera(std::string_view clauses, std::str
   std::optional<radiosity::Camera> camera;
   if (errors.count() == 0 && text.find('\n') == text.npos) { camera = scene_file::make_camera(syntax.cameras.front(), errors); }
   if (errors.count() > 0) {
-    fault = errors.take().errors.back().sentence;  // those about what is missing stand first, at the name
+    fault = errors.take().errors.back().sentence;  // errors about missing clauses come first, because their place is the name
     return std::nullopt;
   }
-  if (camera) { camera->name = "(given)"; }  // no file can have this name
+  if (camera) { camera->name = "(given)"; }  // not a valid name in a file
   if (!camera) { fault = "expected the clauses of one camera in one line"; }
   return camera;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The kinds of objects: the table of the grammar, and what makes the shape of each.
+// The kinds of objects: the table of the grammar, and the functions that make their shapes.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -33,7 +33,7 @@ namespace {
 
 std::string who(const ObjectSyntax& syntax) { return std::string(syntax.kind->word) + " " + in_quotes(syntax.name.text) + ": "; }
 
-// Takes the object out of what a factory of raycast/ returned, or reports its sentence.
+// Returns the object made by a factory of raycast/, or reports its refusal.
 template <class Made>
 Shape take(Made made, const ObjectSyntax& syntax, Place place, Errors& errors) {
   if (made.object) { return std::move(made.object); }
@@ -98,8 +98,8 @@ Shape make_superquadric(const ObjectSyntax& syntax, Errors& errors) {
               syntax.place(ring > 0.0 && !(ring > 1.0) ? "ring" : "exponents"), errors);
 }
 
-// The error of the coordinates as they are written: half a unit of the last digit that the largest of them was given. The vertex that has
-// most digits tells how many were written, because writers leave out zeros at the end. With three or fewer the numbers are exact.
+// The rounding error of the coordinates as written: half a unit of the last digit of the largest one. Writers drop zeros at the end, so
+// the largest number of digits of any coordinate counts. Numbers with three or fewer digits count as exact.
 double written_rounding(const std::vector<PlacedVertex>& vertices) {
   std::size_t digits = 0;
   double largest = 0.0;
@@ -111,7 +111,7 @@ double written_rounding(const std::vector<PlacedVertex>& vertices) {
   return 0.5 * std::pow(10.0, std::floor(std::log10(largest)) + 1.0 - static_cast<double>(digits));
 }
 
-// Place of the vertex that lies farthest off the mean plane, if that is off by more than `tolerance`; else `fallback`.
+// Place of the vertex farthest from the mean plane, if its distance is more than `tolerance`; else `fallback`.
 Place off_plane(const std::vector<glm::dvec3>& points, const std::vector<Place>& places, double tolerance, Place fallback) {
   glm::dvec3 normal(0.0);
   glm::dvec3 mean(0.0);
@@ -157,7 +157,7 @@ Shape make_polygon(const ObjectSyntax& syntax, Errors& errors) {
   return take(std::move(made), syntax, syntax.name.place, errors);
 }
 
-// Every face alone, so that a fault is reported at its line.
+// Checks every face on its own, so that a fault is reported at its line.
 bool check_faces(const ObjectSyntax& syntax, Errors& errors) {
   const std::size_t before = errors.count();
   const double rounding = written_rounding(syntax.vertices);
@@ -186,15 +186,15 @@ struct FaceLists {
   std::vector<std::vector<std::uint32_t>> faces;  // indices into the positions
 };
 
-// Meshes that list a sheet together with its back, on the same vertices. As one mesh they are no manifold, because an edge in the sheet has
-// four faces, or they enclose nothing. With vertices of their own the two sides are two surfaces that lie back to back.
+// Separates the two sides of meshes that contain a sheet and its back on the same vertices. As one mesh they are not a manifold, because
+// an edge inside the sheet has four faces, or they enclose nothing. With separate vertices the two sides are two surfaces back to back.
 //
-// Faces belong together when they share an edge across which they look the same way and which is no fold: of two faces folded flat onto
-// each other one is the back of the other. Faces that belong together share vertices; others get copies. Every index must be in range.
+// Faces are connected if they share an edge with consistent orientation that is not a fold: if two faces are folded flat onto each other,
+// one is the back of the other. Connected faces share vertices, others get copies. Every index must be in range.
 FaceLists with_sides_parted(const FaceLists& mesh) {
-  constexpr double tol_flat = 1e-9;  // of 1 + the cosine between the normals
+  constexpr double tol_flat = 1e-9;  // for 1 + the cosine between the normals
   std::vector<glm::dvec3> normals, outline;
-  std::multimap<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> edges;  // directed, with their faces
+  std::multimap<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> edges;  // directed, with the faces to which they belong
   for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) {
     const std::vector<std::uint32_t>& face = mesh.faces[f];
     outline.clear();
@@ -212,7 +212,7 @@ FaceLists with_sides_parted(const FaceLists& mesh) {
     }
   }
   FaceLists parted;
-  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> copies;  // of a vertex for the faces that belong together
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> copies;  // by connected component and vertex
   for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) {
     parted.faces.emplace_back();
     for (const std::uint32_t v : mesh.faces[f]) {
@@ -246,7 +246,7 @@ Shape make_mesh(const ObjectSyntax& syntax, Errors& errors) {
 std::span<const ObjectKind> object_kinds() {
   using enum Form;
   static const std::vector<ObjectKind> table = {
-      // word, its clauses, does it enclose anything, what makes it
+      // Columns: word, clauses, does it enclose a volume, function that makes it.
       {"polygon", {{"vertex", vertex}}, false, make_polygon},
       {"disk", {{"center", vector}, {"normal", vector}, {"radius", length}}, false, make_disk},
       {"box", {{"from", vector}, {"to", vector}}, true, make_box},

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// What the parser hands to the builder: the statements of the file, each with the places that later errors need.
-// Names are not resolved yet. A statement that had an error of its own is kept with sound == false: its name is
-// known, so that nothing that refers to it is blamed, but it is not built.
+// The output of the parser for the builder: the statements of the file, with the places needed for later errors. Names are not
+// resolved yet. A statement with an error is kept with sound == false: its name is known, so that statements that refer to it
+// are not reported, but it is not built.
 
 #include <algorithm>
 #include <array>
@@ -38,7 +38,7 @@ struct Given {
 struct PlacedVertex {
   glm::dvec3 value{0.0};
   Place place;
-  std::size_t digits = 0;  // significant digits of the coordinate that was written with most
+  std::size_t digits = 0;  // largest number of significant digits of its coordinates
 };
 
 struct MaterialSyntax {
@@ -72,21 +72,21 @@ struct ObjectSyntax {
   std::vector<SheetSyntax> sheets;
   raycast::Placement placement;
   std::optional<Place> inside;
-  std::optional<Name> file;        // of a mesh that another file holds
-  std::optional<Place> two_sided;  // of such a mesh: what encloses nothing reflects on both sides
-  std::vector<Given> given;        // the clauses of its own kind, as the table of the grammar names them, except for vertices and faces
+  std::optional<Name> file;        // of a mesh in another file
+  std::optional<Place> two_sided;  // of such a mesh: surfaces that enclose nothing reflect on both sides
+  std::vector<Given> given;        // clauses of its own kind from the grammar table, except for vertices and faces
   std::vector<PlacedVertex> vertices;
   std::vector<std::uint32_t> corners;
   std::vector<FaceSyntax> faces;
   std::vector<ObjectSyntax> operands;
-  std::optional<Name> group;  // of a union that is written as a use, among operands: its operands are what is in the group
+  std::optional<Name> group;  // of a use among operands, stored as a union: its operands are the objects of this group
 
-  // Null when the clause was not given.
+  // Null if the clause was not given.
   [[nodiscard]] const Given* find(std::string_view word) const {
     const auto found = std::find_if(given.begin(), given.end(), [&](const Given& g) { return g.word == word; });
     return found == given.end() ? nullptr : &*found;
   }
-  // Of a clause that was given.
+  // The clause must have been given.
   [[nodiscard]] double number(std::string_view word) const { return find(word)->numbers[0]; }
   [[nodiscard]] glm::dvec3 vector(std::string_view word) const {
     const auto& [x, y, z] = find(word)->numbers;
@@ -102,7 +102,7 @@ struct UseSyntax {
   bool sound = true;
 };
 
-// A use among operands: the union of what is in the group.
+// Converts a use among operands to a union of the group's objects.
 [[nodiscard]] inline ObjectSyntax as_operand(const UseSyntax& use) {
   ObjectSyntax result;
   result.kind = kind_of("union");
@@ -125,7 +125,7 @@ struct SceneSyntax {
   std::vector<CameraSyntax> cameras;
   std::vector<GroupSyntax> groups;
   std::vector<Item> items;
-  bool complete = true;  // false: the text was given up before its end
+  bool complete = true;  // false: reading stopped before the end of the text
 };
 
 }  // namespace apps::scene_file

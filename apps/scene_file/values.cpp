@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The smallest parts of a scene file: tokens, numbers, names, and how reading goes on after an error.
+// The smallest parts of a scene file: tokens, numbers, names, and the recovery after an error.
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -19,7 +19,7 @@ bool is_name(std::string_view text) {
   return text.size() <= 200;
 }
 
-// Of a decimal number: its digits from the first that is not 0, without the exponent. "0.0120" has three.
+// Number of digits of a decimal number from the first that is not 0, without the exponent. "0.0120" has three.
 std::size_t significant_digits(std::string_view text) {
   std::size_t count = 0;
   for (const char c : text) {
@@ -29,7 +29,7 @@ std::size_t significant_digits(std::string_view text) {
   return count;
 }
 
-// Empty when `text` is a finite number that is neither beyond `most` nor malformed; else what is wrong with it.
+// Empty if `text` is a well-formed finite number not beyond `most`; else describes the fault.
 std::string number_fault(std::string_view text, double most, double& out) {
   const bool plus = text.size() > 1 && text[0] == '+' && text[1] != '-';
   if (plus) { text.remove_prefix(1); }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Shells and normals that are not as they should be, and what hides what.
+// Faulty shells and normals, and occlusion.
 #include <raycast/objects/mesh.hpp>
 #include <raycast/objects/sphere.hpp>
 #include <raycast/objects/superquadric.hpp>
@@ -48,7 +48,7 @@ constexpr Case cases_of_boundary[] = {
        findings.warned("tube without lids", solution, "open shell with 8 open edges");
        findings.at_least("rays from surfaces to nothing, fraction", solution.audit.stray ? solution.audit.stray->escaping : 0.0, 0.5);
        findings.at_least("emitted light that escapes, fraction", solution.audit.escaped, 0.5);
-       // Plates are bright on one side.
+       // Plates are lit on one side only.
        Scene away = two_plates(0.5);
        away.objects.push_back(square("above", {0.5, 0.5, 1.5}, 0.5, true, 1));
        away.objects.push_back(square("below", {0.5, 0.5, -0.5}, 0.5, true, 1));
@@ -79,7 +79,7 @@ constexpr Case cases_of_boundary[] = {
        capped.objects.push_back(object("cap", box({-1.0, -1.0, 0.5}, {2.0, 2.0, 0.6}), 1));
        const Solution solution = findings.solve(capped, coarse());
        findings.exactly("plate behind a slab: B", mean(solution, "upper"), 0.0);
-       // A thousandth below the ceiling the room is not proven closed, and its rows are not corrected.
+       // With the lamp a thousandth below the ceiling, the room is not proven closed, and its row sums are not corrected.
        const Scene flush = room_with_box();
        Scene hung = flush;
        hung.objects[2] = square("lamp", {0.5, 0.5, 0.999}, 0.15, false, 1);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// A stiff or extreme case: scenes that are solved, and figures of what came out, each against its bound. What was done (solved, warned,
-// refused) is recorded as it happens; why that is right is what the case says of itself. Every figure depends on the scenes alone.
+// A stiff or extreme case: scenes that are solved, and measured figures, each with its bound. What happened (solved, warned, refused) is
+// recorded; why it is correct is stated by the case. All figures depend on the scenes only.
 
 #include <algorithm>
 #include <cmath>
@@ -24,7 +24,7 @@
 
 namespace apps::stress {
 
-// A measured number and the bound that it must keep. NaN keeps none.
+// A measured number and its bound. NaN satisfies no bound.
 struct Figure {
   enum class Bound { at_most, at_least, exactly };
   std::string what;
@@ -37,7 +37,7 @@ struct Figure {
   }
 };
 
-// What running a case brought to light.
+// The results of running a case.
 class Findings {
  public:
   void at_most(std::string what, double measured, double bound) {
@@ -50,13 +50,12 @@ class Findings {
     figures_.push_back({std::move(what), measured, Figure::Bound::exactly, bound});
   }
 
-  // The solution of a scene that has one. When there is none, or a radiosity is not finite, the case has failed, and what comes back is
-  // empty.
+  // Solves a scene that must have a solution. If there is none, or a radiosity is not finite, the case fails, and the result is empty.
   radiosity::Solution solve(const radiosity::Scene& scene, const radiosity::Options& options, const radiosity::Control& control = {});
-  // A scene, or an object, that must be refused with a sentence that contains `word`.
+  // Expects that a scene or an object is refused with a sentence that contains `word`.
   void refuse(const std::string& what, const radiosity::Scene& scene, const radiosity::Options& options, std::string_view word);
   void refuse(const std::string& what, const std::string& sentence, std::string_view word);
-  // The solution must warn with a sentence that contains `word`.
+  // Expects that the solution has a warning that contains `word`.
   void warned(const std::string& what, const radiosity::Solution& solution, std::string_view word);
 
   [[nodiscard]] const std::vector<Figure>& figures() const { return figures_; }
@@ -67,11 +66,11 @@ class Findings {
 
  private:
   std::vector<Figure> figures_;
-  std::vector<std::string> refusals_, warnings_;  // the sentences that were asked for
+  std::vector<std::string> refusals_, warnings_;  // the expected sentences
   std::uint32_t solved_ = 0;
 };
 
-// A row: what is stressed, why what is done is right, and the scenes with their figures.
+// A row: what is stressed, why the program's behaviour is correct, and the function that runs the scenes and records the figures.
 struct Case {
   std::string_view name;
   std::string_view what;
@@ -80,21 +79,21 @@ struct Case {
 };
 
 [[nodiscard]] std::span<const Case> light_cases();     // reflectance, emission, the linear system
-[[nodiscard]] std::span<const Case> contact_cases();   // what touches, coincides, overlaps
-[[nodiscard]] std::span<const Case> boundary_cases();  // shells, normals, what hides what
-[[nodiscard]] std::span<const Case> size_cases();      // scale, place, thinness, number and depth
+[[nodiscard]] std::span<const Case> contact_cases();   // touching, coincident and overlapping objects
+[[nodiscard]] std::span<const Case> boundary_cases();  // shells, normals, occlusion
+[[nodiscard]] std::span<const Case> size_cases();      // scale, position, thinness, number and depth
 
-// All of them, in the order in which they are run.
+// All cases, in the order in which they are run.
 [[nodiscard]] const std::vector<Case>& cases();
 
-// --- what all cases need: settings, and what is measured of a solution
+// --- used by all cases: settings, and measures of a solution
 
 using radiosity::Color;
 using radiosity::Options;
 using radiosity::Scene;
 using radiosity::Solution;
 
-// Coarse and fast: what is measured does not depend on the mesh, or only within the bound of its case.
+// Coarse and fast, for figures that do not depend on the mesh, or only within the bound of their case.
 inline Options coarse() {
   Options options;
   options.epsilon = 0.1;
@@ -103,7 +102,7 @@ inline Options coarse() {
   return options;
 }
 
-// For what does depend on it.
+// For figures that do depend on it.
 inline Options finer() {
   Options options = coarse();
   options.epsilon = 0.02;
@@ -111,7 +110,7 @@ inline Options finer() {
   return options;
 }
 
-// Mean radiosity of a named surface; NaN, which keeps no bound, when there is none.
+// Mean radiosity of a named surface; if there is none, NaN, which satisfies no bound.
 inline Color mean_color(const Solution& solution, std::string_view surface) {
   for (const radiosity::SurfaceMean& s : solution.audit.surfaces) {
     if (s.name == surface) { return s.radiosity; }
@@ -120,7 +119,7 @@ inline Color mean_color(const Solution& solution, std::string_view surface) {
 }
 inline double mean(const Solution& solution, std::string_view surface) { return mean_color(solution, surface).x; }
 
-// The exposed area of a named surface; 0 when there is none.
+// The exposed area of a named surface; 0 if there is none.
 inline double area(const Solution& solution, std::string_view surface) {
   const auto& all = solution.audit.surfaces;
   const auto found = std::find_if(all.begin(), all.end(), [&](const radiosity::SurfaceMean& s) { return s.name == surface; });
@@ -129,7 +128,7 @@ inline double area(const Solution& solution, std::string_view surface) {
 
 inline double relative(double value, double reference) { return std::abs(value / reference - 1.0); }
 
-// The largest difference of any exposed leaf from the value that all should have, in any channel.
+// The largest deviation, in any channel, of an exposed leaf from the value that all should have.
 inline double worst(const Solution& solution, double value) {
   double difference = solution.mesh.faces.empty() ? std::numeric_limits<double>::quiet_NaN() : 0.0;
   for (const radiosity::MeshFace& face : solution.mesh.faces) {
@@ -139,7 +138,7 @@ inline double worst(const Solution& solution, double value) {
   return difference;
 }
 
-// The largest relative difference of the means of two solutions of the same surfaces, where the second has light.
+// The largest relative difference of the means of two solutions of the same surfaces, over surfaces that are lit in the second.
 inline double apart(const Solution& a, const Solution& b, double factor = 1.0) {
   double difference = a.audit.surfaces.size() == b.audit.surfaces.size() ? 0.0 : std::numeric_limits<double>::quiet_NaN();
   for (std::size_t i = 0; i < a.audit.surfaces.size() && i < b.audit.surfaces.size(); ++i) {
@@ -149,7 +148,7 @@ inline double apart(const Solution& a, const Solution& b, double factor = 1.0) {
   return difference;
 }
 
-// Leaves whose radiosity is not bit by bit that of the other solution times `factor`; all when the meshes differ.
+// Number of nodes whose radiosity is not bit-identical to that of the other solution times `factor`; all if the meshes differ.
 inline double other_bits(const Solution& a, const Solution& b, double factor = 1.0) {
   if (a.radiosity.size() != b.radiosity.size()) { return static_cast<double>(std::max(a.radiosity.size(), b.radiosity.size())); }
   double count = 0.0;

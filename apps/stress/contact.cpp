@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Things that touch, coincide, overlap, or nearly do.
+// Objects that touch, coincide, overlap, or nearly do.
 #include <raycast/objects/cylinder.hpp>
 #include <raycast/objects/sphere.hpp>
 
@@ -8,7 +8,7 @@
 namespace apps::stress {
 namespace {
 
-// A room of 2 x 1 x 1 cut in two by a wall, made of three boxes that touch and stand on the floor; a lamp in one half.
+// A room of 2 x 1 x 1 divided by a wall, made of three boxes that touch and stand on the floor; a lamp in one half.
 Scene two_halves(double thickness) {
   Scene scene;
   scene.materials = {{"white", Color{0.7}, Color{0.0}}, {"lamp", Color{0.0}, Color{5.0}}};
@@ -34,7 +34,7 @@ constexpr Case cases_of_contact[] = {
        }
        findings.at_most("walls of a cube: |mean row sum - 1|", mean_sum, 1e-3);
        findings.at_most("walls of a cube: |row sum - 1| after closing", corrected, 1e-9);
-       // A black lamp: the wall has what it gets at once, by the form factor of two squares with a common edge (Howell C-14).
+       // A black lamp: the wall receives direct light only, by the form factor of two squares with a common edge (Howell C-14).
        Scene scene;
        scene.materials = {{"wall", Color{0.5}, Color{0.0}}, {"lamp", Color{0.0}, Color{1.0}}};
        scene.objects = {plate("floor", {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, 1),
@@ -52,7 +52,7 @@ constexpr Case cases_of_contact[] = {
        beside.materials = {{"lamp", Color{0.5}, Color{1.0}}, {"wall", Color{0.5}, Color{0.0}}};
        beside.objects = {square("lamp", {0, 0, 0}, 0.5, true, 0), square("beside", {1, 0, 0}, 0.5, true, 1)};
        findings.exactly("coplanar plates side by side: B", mean(findings.solve(beside, coarse()), "beside"), 0.0);
-       // A lamp on a floor: the floor under it is buried, and lamp and floor see what is above.
+       // A lamp on a floor: the floor below it is buried, and lamp and floor see what is above them.
        Scene on_floor = two_plates(0.5);
        const Solution alone = findings.solve(on_floor, coarse());
        Scene under = on_floor;
@@ -101,7 +101,7 @@ constexpr Case cases_of_contact[] = {
        scene.objects.push_back(object("cylinder through the floor", raycast::Cylinder::make({0.2, 0.8, -0.3}, {0, 0, 0.6}, 0.1).object));
        const Solution solution = findings.solve(scene, coarse());
        findings.at_most("furnace: |B - 1| of all that shows", worst(solution, 1.0), 1e-3);
-       // Of the face x = .6 of the first box, .4 x .4, the part y .3 to .6, z .3 to .5 lies in the other box.
+       // The part y .3 to .6, z .3 to .5 of the .4 x .4 face x = .6 of the first box lies inside the other box.
        findings.at_most("exposed area of a face partly inside, relative", relative(area(solution, "box.x1"), 0.16 - 0.3 * 0.2), 0.02);
      }},
     {"gap", "solids 1e-12 apart", "closer than coordinates can tell is touching: no light goes through, nothing is counted twice",
@@ -117,7 +117,8 @@ constexpr Case cases_of_contact[] = {
        const Solution narrow = findings.solve(scene_of(1e-12), coarse());
        findings.at_most("gap of 1e-12 against none, relative", apart(narrow, none), 1e-3);
        findings.at_most("face over the gap: B", mean(narrow, "box.z0"), 0.0);
-       // Wide enough to be one. The floor is not cut at a box that does not stand on it, so the meshes differ, and are made finer for that.
+       // A gap wide enough to count as one. The floor is not divided along a box that does not stand on it, so the meshes differ; finer
+       // meshes reduce the difference.
        const Solution open = findings.solve(scene_of(1e-6), finer());
        const Solution closed = findings.solve(scene_of(0.0), finer());
        findings.at_most(
@@ -136,7 +137,7 @@ constexpr Case cases_of_contact[] = {
      }},
     {"grazing", "rays along a wall", "a ray that only touches a solid is not stopped: spans decide, not epsilons along the ray",
      [](Findings& findings) {
-       // Two black-backed plates stand on the top of a long box; all rays between them near their feet run along it.
+       // Two black-backed plates stand on a long box; all rays between them near its surface run along it.
        Scene scene;
        scene.materials = {{"black", Color{0.0}, Color{0.0}}, {"lamp", Color{0.0}, Color{1.0}}, {"white", Color{0.5}, Color{0.0}}};
        const auto end = [](std::string name, double x, double height, bool forward, std::uint32_t material) {
@@ -146,7 +147,7 @@ constexpr Case cases_of_contact[] = {
        };
        for (const double height : {1.0, 1e-4}) {
          scene.objects = {end("lamp", 0.0, height, true, 1), end("target", 2.0, height, false, 2)};
-         const auto boxes_at = [&](double distance) {  // the same ones for both, so that patches are split alike
+         const auto boxes_at = [&](double distance) {  // the same boxes at both distances, so that patches are divided alike
            scene.objects.resize(2);
            scene.objects.push_back(object("ground", box({-1, -1, -1 - distance}, {3, 2, -distance})));
            scene.objects.push_back(object("side", box({-1, 1 + distance, -1}, {3, 2 + distance, 1})));

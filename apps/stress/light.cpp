@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Reflectance and emission at their limits, and the linear system that they make.
+// Reflectance and emission at their limits, and the linear system.
 #include <limits>
 
 #include <raycast/objects/csg.hpp>
@@ -16,7 +16,7 @@ Scene lit_room(double reflectance) {
   return scene;
 }
 
-// In a nearly lossless room all light spreads evenly: B = emitted power / (absorbing area), less the first bounces.
+// In a nearly lossless room the light is nearly uniform: B = emitted power / (absorbed fraction * area), apart from the first bounces.
 double filled(const Solution& solution, double loss) {
   double emitted = 0.0;
   double area = 0.0;
@@ -27,7 +27,7 @@ double filled(const Solution& solution, double loss) {
   return emitted / (loss * area);
 }
 
-// Two rooms of 1 x 1 x 1 joined by a duct of the given side and length .1: the light that goes through is the stiffest part.
+// Two rooms of 1 x 1 x 1 joined by a duct of the given side and length .1: the light through the duct is the stiffest part of the system.
 Scene keyhole(double side, double reflectance) {
   Scene scene;
   scene.materials = {{"white", Color{reflectance}, Color{0.0}}, {"lamp", Color{reflectance}, Color{1.0}}};
@@ -54,7 +54,7 @@ constexpr Case cases_of_light[] = {
        double off = 0.0;
        double energy = 0.0;
        std::uint32_t iterations = 0;
-       double excess = 0.0;  // of the difference from an evenly filled room over what the first bounces explain
+       double excess = 0.0;  // deviation from a uniformly lit room, relative to what the first bounces explain
        for (const double loss : {1e-1, 1e-2, 1e-3, 1e-4, 1e-6, 1e-9}) {
          const Solution furnace = findings.solve(furnace_with_things(1.0 - loss), coarse());
          const Solution room = findings.solve(lit_room(1.0 - loss), coarse());
@@ -108,7 +108,7 @@ constexpr Case cases_of_light[] = {
          other += other_bits(findings.solve(scene, coarse()), one, factor);
        }
        findings.exactly("emission times 2^-100, 2^100: other bits", other, 0.0);
-       // One lamp of 1e30 in one room, one of 1e-30 in another that the first cannot reach.
+       // A lamp of 1e30 in one room and one of 1e-30 in another that the first cannot reach.
        Scene pair = two_plates(0.5);
        const Solution alone = findings.solve(pair, coarse());
        pair.materials.push_back({"faint", Color{0.5}, Color{1e-30}});
@@ -125,7 +125,7 @@ constexpr Case cases_of_light[] = {
      }},
     {"channel", "one channel black, one without light", "channels do not know of each other",
      [](Findings& findings) {
-       // Reflectance and emission in one channel each, one channel of neither.
+       // Red has reflectance and emission, green only emission, blue only reflectance.
        Scene scene = room_with_box();
        scene.materials[0].reflectance = {0.7, 0.0, 0.7};
        scene.materials[1].emission = {5.0, 5.0, 0.0};
@@ -164,16 +164,16 @@ constexpr Case cases_of_light[] = {
      "what is left after deflation is well conditioned; of two rooms with a small opening one slow mode remains, which costs a few "
      "iterations",
      [](Findings& findings) {
-       // The condition of the system is 2 / (1 - rho); Jacobi would need 18 / (1 - rho) iterations for the same residual.
+       // The condition number of the system is 2 / (1 - rho); Jacobi would need 18 / (1 - rho) iterations for the same residual.
        const Solution room = findings.solve(lit_room(1.0 - 1e-9), coarse());
        findings.at_most("rho = 1 - 1e-9: iterations", room.audit.iterations, 20);
-       // B is 1e9 times what is emitted, and known to 16 digits of its own: the residual is relative to what is emitted.
+       // B is 1e9 times the emission and has 16 digits of its own, while the residual is relative to the emission.
        findings.at_most("rho = 1 - 1e-9: residual relative to B", room.audit.residual * 1e-9, 1e-14);
        findings.exactly("rho = 1 - 1e-9: converged", room.audit.converged ? 1.0 : 0.0, 1.0);
        const Solution rooms = findings.solve(keyhole(0.05, 1.0 - 1e-6), coarse());
        findings.at_most("two rooms through a duct of .05: iterations", rooms.audit.iterations, 40);
        findings.at_most("two rooms through a duct of .05: residual", rooms.audit.residual, 1e-8);
-       // Nearly nothing is lost, so both rooms are nearly as bright.
+       // Nearly nothing is absorbed, so both rooms are nearly equally bright.
        findings.at_most("two rooms: |far / near - 1|", relative(mean(rooms, "rooms.far.x1"), mean(rooms, "rooms.near.z0")), 0.05);
      }},
 };

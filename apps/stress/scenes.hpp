@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Small scenes with known answers, for `halflight stress` and the tests.
+// Small scenes with known solutions, for `halflight stress` and the tests.
 
 #include <algorithm>
 #include <memory>
@@ -41,7 +41,7 @@ inline radiosity::SceneObject plate(std::string name, std::vector<glm::dvec3> co
   return object(std::move(name), polygon(std::move(corners)), material);
 }
 
-// A square of side 2 r about (x, y, z), bright above or below.
+// A square of side 2 r about (x, y, z), facing up or down.
 inline radiosity::SceneObject square(std::string name, const glm::dvec3& c, double r, bool up, std::uint32_t material = 0) {
   std::vector<glm::dvec3> corners{{c.x - r, c.y - r, c.z}, {c.x + r, c.y - r, c.z}, {c.x + r, c.y + r, c.z}, {c.x - r, c.y + r, c.z}};
   if (!up) { std::reverse(corners.begin(), corners.end()); }
@@ -57,7 +57,7 @@ inline radiosity::Scene furnace_sphere(double rho) {
   return {{furnace_material(rho)}, {object("sphere", raycast::Sphere::make({0, 0, 0}, 1.0).object, 0, true)}};
 }
 
-// A furnace with things in it: a box on the floor, a sphere in the air, a cylinder against nothing.
+// A furnace with objects in it: a box on the floor, a sphere in the air, a cylinder on the floor.
 inline radiosity::Scene furnace_with_things(double rho) {
   radiosity::Scene scene = furnace_cube(rho);
   scene.objects.push_back(object("box", box({0.1, 0.2, 0.0}, {0.4, 0.5, 0.3})));
@@ -84,7 +84,7 @@ inline radiosity::Scene two_plates(double rho) {
   return scene;
 }
 
-// The scene with every length multiplied by `scale` and moved by `offset`, through the placements.
+// The scene scaled by `scale` and then moved by `offset`, by changing the placements.
 inline radiosity::Scene moved(radiosity::Scene scene, double scale, const glm::dvec3& offset) {
   for (radiosity::SceneObject& o : scene.objects) {
     o.placement.linear = o.placement.linear * scale;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Large and small, far and thin, many and deep.
+// Very large and small scenes, scenes far from the origin, thin objects, many objects, deep refinement.
 #include <atomic>
 #include <cmath>
 #include <numbers>
@@ -15,7 +15,7 @@
 namespace apps::stress {
 namespace {
 
-// The room with every coordinate multiplied by `scale`, moved by `offset` and rounded, as a file would give it.
+// The room with every coordinate multiplied by `scale`, moved by `offset` and rounded, as in a file.
 Scene written(double scale, double offset) {
   Scene scene = room_with_box();
   const auto at = [&](double x, double y, double z) { return glm::dvec3{x, y, z} * scale + glm::dvec3{offset}; };
@@ -24,7 +24,7 @@ Scene written(double scale, double offset) {
   return scene;
 }
 
-// k small squares at pseudo-random places in a cube, one of them in eight a lamp, all looking up or down.
+// k small squares at pseudo-random places in a cube, every eighth a lamp, facing up or down alternately.
 Scene cloud(std::uint32_t k) {
   Scene scene;
   scene.materials = {{"white", Color{0.5}, Color{0.0}}, {"lamp", Color{0.5}, Color{1.0}}};
@@ -64,7 +64,7 @@ constexpr Case cases_of_size[] = {
        const auto off = [&](double by) { return apart(findings.solve(written(1.0, by), coarse()), one); };
        findings.at_most("1e3 sizes: B, relative", off(1e3), 1e-6);
        findings.at_most("1e5 sizes: B, relative", off(1e5), 1e-6);
-       // Coordinates are known to 1e-9 of the room here, and so is the light.
+       // Here coordinates are known to 1e-9 of the room's size, and so is the light.
        const Solution far = findings.solve(written(1.0, 1e7), coarse());
        findings.at_most("1e7 sizes: B, relative", apart(far, one), 1e-6);
        findings.warned("1e7 sizes", far, "from the origin");
@@ -77,12 +77,12 @@ constexpr Case cases_of_size[] = {
          scene.materials = {{"wall", Color{0.5}, Color{0.0}}, {"lamp", Color{0.0}, Color{1e10}}};
          scene.objects = {square("lamp", {0, 0, distance}, 5e-6, false, 1), square("target", {0, 0, 0}, 1e-2, true, 0)};
          const double irradiance = 1e10 * 1e-10 / (std::numbers::pi * distance * distance);
-         // Over the target r^2 is larger by (2e-4 / 3) / distance^2 in the mean, and the cosines fall as much again.
+         // Over the target, r^2 is larger by (2e-4 / 3) / distance^2 on average, and the cosines decrease by as much again.
          const double known = 3e-4 / (distance * distance);
          off = std::max(off, relative(mean(findings.solve(scene, coarse()), "target"), 0.5 * irradiance) / known);
        }
        findings.at_most("lamp of 1e-5: |B / inverse square - 1| / extent^2", off, 1.0);
-       // A lamp of 1e-5 in a room: what it sends arrives.
+       // A lamp of 1e-5 in a room: its light must arrive.
        Scene room = room_with_box();
        room.objects[2] = square("lamp", {0.5, 0.5, 1.0}, 5e-6, false, 1);
        room.materials[1].emission = Color{5.0 * 9e8};
@@ -99,7 +99,7 @@ constexpr Case cases_of_size[] = {
        scene.objects.push_back(plate("splinter", {{0, 0.3, 0.5}, {1, 0.3, 0.5}, {0.5, 0.300001, 0.5}}, 1));
        const Solution solution = findings.solve(scene, coarse());
        findings.at_most("quadrilateral and triangle: energy amiss", solution.audit.energy_balance, 1e-6);
-       // What they get is what ten thousand times wider ones get there.
+       // The radiosity must be that of plates ten thousand times wider at the same place.
        Scene wide = two_plates(0.5);
        wide.objects.push_back(plate("needle", {{0, 0.495, 0.5}, {1, 0.495, 0.5}, {1, 0.505, 0.5}, {0, 0.505, 0.5}}, 1));
        wide.objects.push_back(plate("splinter", {{0, 0.3, 0.5}, {1, 0.3, 0.5}, {0.5, 0.31, 0.5}}, 1));
@@ -108,7 +108,7 @@ constexpr Case cases_of_size[] = {
          findings.at_most(std::string{name} + ": B against one of width 1e-2, relative",
                           relative(mean(solution, name), mean(reference, name)), 0.05);
        }
-       // A blade in a furnace, and one cut into slivers.
+       // A blade in a furnace, and a very flat tetrahedron.
        Scene furnace = furnace_cube(0.9);
        furnace.objects.push_back(object("blade", box({0.2, 0.5, 0.2}, {0.8, 0.5 + 1e-6, 0.7})));
        const std::vector<glm::dvec3> fan{{0.1, 0.1, 0.1}, {0.9, 0.1, 0.1}, {0.5, 0.1 + 1e-6, 0.1}, {0.5, 0.1 + 5e-7, 0.2}};
@@ -140,7 +140,7 @@ constexpr Case cases_of_size[] = {
      }},
     {"deep", "20 levels of refinement", "generations, not recursion; areas are compared, not counted",
      [](Findings& findings) {
-       // Two squares that touch in one corner: at every level a few patches beside it are split again.
+       // Two squares that touch at one corner: at every level a few patches near it are split again.
        Scene scene;
        scene.materials = {{"lamp", Color{0.0}, Color{1.0}}, {"wall", Color{0.5}, Color{0.0}}};
        scene.objects = {plate("lamp", {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, 0),
@@ -171,9 +171,9 @@ constexpr Case cases_of_size[] = {
      }},
     {"interrupt", "a run that is stopped early", "the best so far is a valid solution of its own mesh, and says that it was stopped",
      [](Findings& findings) {
-       // A run that is told to stop after its fourth generation.
+       // A run that is stopped after its fourth generation.
        std::atomic<bool> cancel{false};
-       bool begun = false;  // the first coarse mesh is linked
+       bool begun = false;  // has the first coarse mesh been linked?
        int generations = 0;
        radiosity::Control control;
        control.cancel = &cancel;

@@ -54,8 +54,8 @@ std::string element(const Image& image) {
 }  // namespace
 
 double text_width(std::string_view text, double size) {
-  // The wider of Helvetica, whose metrics Arial and Liberation Sans share, and DejaVu Sans, in thousandths of the size; from the space to
-  // '~'. Which of them a reader has is not known here.
+  // The larger advance of Helvetica (whose metrics Arial and Liberation Sans share) and DejaVu Sans, in thousandths of the size, from the
+  // space to '~'. It is not known which of them the reader has.
   static constexpr std::array<int, 95> advance = {
       318, 401, 460, 838, 636, 950, 780, 275, 390,  390, 500, 838, 318, 361, 318, 337, 636, 636, 636, 636, 636, 636, 636, 636,
       636, 636, 337, 337, 838, 838, 838, 556, 1015, 684, 686, 722, 770, 667, 611, 778, 752, 295, 500, 667, 557, 863, 748, 787,
@@ -67,7 +67,7 @@ double text_width(std::string_view text, double size) {
     if (byte >= ' ' && byte <= '~') {
       width += advance[byte - std::size_t{' '}];
     } else if (byte < 0x80 || byte >= 0xc0) {
-      width += 838;  // any other character is as wide as a sign of arithmetic
+      width += 838;  // any other character counts as wide as an arithmetic sign
     }
   }
   return 1e-3 * size * width;

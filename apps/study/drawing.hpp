@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// A drawing as data: shapes, labels and pictures in the order in which they cover each other. What draws (plot.hpp, error_picture.hpp)
-// fills one; to_svg() writes it as SVG 1.1: text stays text, coordinates to 1/100 pixel; pictures are named as in SVG 2, by href without
-// xlink.
+// A drawing as data: shapes, labels and images in drawing order; later ones cover earlier ones. plot.hpp and error_picture.hpp make
+// drawings; to_svg() writes one as SVG 1.1: text remains text, coordinates are rounded to 1/100 pixel; images are referenced as in SVG 2,
+// by href without xlink.
 //
-// Units are CSS pixels; x to the right, y down. Colours are attributes and not a style sheet, so that every program reads them. Three of
-// them have a meaning: a page exchanges them in the dark by their values, as in  svg [fill="#222222"] { fill: white }.
+// Units are CSS pixels; x to the right, y down. Colours are attributes, not a style sheet, so that every program can read them. Three of
+// them have a meaning: a page replaces them in dark mode by their values, as in  svg [fill="#222222"] { fill: white }.
 
 #include <cstdint>
 #include <string>
@@ -35,12 +35,12 @@ struct Shape {
   Srgb stroke = ink;
   std::vector<double> dashes = {};  // lengths on, off, on, ...; empty: solid
   double opacity = 1.0;
-  std::string title = {};  // shown by a browser when one points at the shape
+  std::string title = {};  // tooltip shown by a browser
 };
 
 enum class Anchor { start, middle, end };
 
-// One line of text; `at` lies on its baseline.
+// One line of text; `at` is on its baseline.
 struct Label {
   glm::dvec2 at{0.0};
   std::string text;  // UTF-8
@@ -48,15 +48,15 @@ struct Label {
   Anchor anchor = Anchor::start;
   Srgb color = ink;
   bool bold = false;
-  bool upright = true;  // or it runs from the bottom to the top
+  bool upright = true;  // horizontal; otherwise it runs from bottom to top
 };
 
-// Pixels, scaled to fill a rectangle.
+// An image, scaled to fill a rectangle.
 struct Image {
   glm::dvec2 low{0.0};  // the upper left corner
   double width = 0.0;
   double height = 0.0;
-  std::string png;  // the bytes of the file
+  std::string png;  // the bytes of the PNG file
 };
 
 struct Drawing {
@@ -77,10 +77,10 @@ struct Drawing {
   return {.points = {low, {high.x, low.y}, high, {low.x, high.y}}, .closed = true, .filled = true, .fill = fill};
 }
 
-// How wide a line of UTF-8 text is at most when it is drawn, bold apart, which is up to an eighth wider.
+// An upper limit for the width of a line of UTF-8 text; bold text may be up to an eighth wider.
 [[nodiscard]] double text_width(std::string_view text, double size);
 
-// The <svg> element, to stand in a page, and a file of its own; `description` is what a screen reader says.
+// The <svg> element for a page, and a complete file; `description` is for screen readers.
 [[nodiscard]] std::string to_svg(const Drawing& drawing, const std::string& description);
 [[nodiscard]] std::string to_svg_file(const Drawing& drawing, const std::string& description);
 

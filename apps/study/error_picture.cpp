@@ -25,7 +25,7 @@ constexpr Srgb background = 0xb4b4b4;
 constexpr double scale_width = 480.0;
 constexpr double scale_height = 62.0;
 
-// Radiosity that draw() shows as exactly this colour at exposure 1: pi times the linear value.
+// The radiosity that draw() shows as exactly this colour at exposure 1: pi times the linear value.
 radiosity::Color shown_as(Srgb color) {
   radiosity::Color result(0.0);
   for (int c = 0; c < 3; ++c) { result[c] = std::numbers::pi * radiosity::srgb_decode(((color >> (16 - 8 * c)) & 255U) / 255.0); }
@@ -50,7 +50,7 @@ glm::dvec3 normal_of(const std::vector<glm::dvec3>& corners) {
   return length > 0.0 ? area / length : glm::dvec3(0.0);
 }
 
-// The cells, each in the colour that color(cell) gives, before a wall of the background's that fills the view.
+// The cells, each with the colour color(cell), in front of a wall with the background colour that fills the view.
 template <class ColorOf>
 radiosity::Mesh mesh_of(const ErrorPicture& errors, const radiosity::View& view, const ColorOf& color) {
   radiosity::Mesh mesh;
@@ -71,7 +71,7 @@ radiosity::Mesh mesh_of(const ErrorPicture& errors, const radiosity::View& view,
   return mesh;
 }
 
-// Darkens what lies at a crease or an outline: neighbours whose normals differ.
+// Darkens pixels at a crease or an outline, i.e. those whose neighbours have different normals.
 void draw_creases(radiosity::Picture& picture, const radiosity::Picture& normals) {
   const auto differ = [&](std::uint32_t x, std::uint32_t y, std::uint32_t u, std::uint32_t v) {
     const radiosity::Rgb8 a = normals.pixel(x, y);
@@ -83,12 +83,12 @@ void draw_creases(radiosity::Picture& picture, const radiosity::Picture& normals
   for (std::uint32_t y = 0; y < picture.height; ++y) {
     for (std::uint32_t x = 0; x < picture.width; ++x) {
       if ((x == 0 || !differ(x, y, x - 1, y)) && (y == 0 || !differ(x, y, x, y - 1))) { continue; }
-      picture.shown[std::size_t{y} * picture.width + x] *= 0.12f;  // some two fifths when encoded
+      picture.shown[std::size_t{y} * picture.width + x] *= 0.12f;  // about two fifths after encoding
     }
   }
 }
 
-// From `top` downwards.
+// Draws the scale from `top` downwards.
 void draw_scale(Drawing& drawing, double top, double limit) {
   constexpr double left = 20.0;
   constexpr double bar = scale_width - 2.0 * left;
@@ -96,7 +96,7 @@ void draw_scale(Drawing& drawing, double top, double limit) {
   drawing.height = top + scale_height;
   for (int i = 0; i < steps; ++i) {
     const double x = left + bar * i / steps;
-    // Each reaches a little under the next: no seam.
+    // Each rectangle extends a little below the next, so that there is no seam.
     drawing.add(rectangle({x, top + 8.0}, {left + bar * std::min<double>(i + 1.2, steps) / steps, top + 22.0},
                           error_color(2.0 * (i + 0.5) / steps - 1.0)));
   }
@@ -175,7 +175,7 @@ Drawing error_scale(double limit) {
 }
 
 Drawing error_figure(const ErrorPicture& errors, const radiosity::Camera& camera, double limit) {
-  constexpr double density = 1.5;  // pixels of the picture for each of the drawing
+  constexpr double density = 1.5;  // pixels of the picture per unit of the drawing
   constexpr double head = 28.0;
   const radiosity::Picture picture = error_picture(errors, camera, limit, static_cast<std::uint32_t>(density * scale_width));
   const double height = picture.height / density;

@@ -32,7 +32,7 @@ constexpr std::string_view csv_head =
 
 constexpr auto csv_columns = static_cast<std::size_t>(1 + std::count(csv_head.begin(), csv_head.end(), ','));
 
-// Empty: not measured.
+// Empty if not measured.
 std::string text_of(double x) { return std::isfinite(x) ? apps::shortest(x) : std::string(); }
 
 class Line {
@@ -75,7 +75,7 @@ std::string run_line(const SceneStudy& scene, const Method& method, const Run& r
   line.fields(scene.scene, scene.reference.kind, text_of(scene.reference.noise), text_of(scene.reference.point_noise), method.name,
               run.setting, names[static_cast<std::size_t>(stage)]);
   if (!run.refused.empty()) {
-    line.empty(csv_columns - 1 - line.count());  // the reason stands in the last column
+    line.empty(csv_columns - 1 - line.count());  // the reason is in the last column
     line.field(run.refused);
     return line.end();
   }
@@ -101,7 +101,7 @@ std::string run_line(const SceneStudy& scene, const Method& method, const Run& r
 
 using apps::JsonWriter;
 
-// A norm below the noise of the reference is given as that noise, and named.
+// A norm below the noise of the reference is replaced by that noise, and its name is listed.
 auto written(const Norms& norms, double noise) {
   return [norms, noise](JsonWriter& json) {
     const std::pair<const char*, double> values[] = {{"l1", norms.l1}, {"l2", norms.l2}, {"worst", norms.worst}};
@@ -175,13 +175,13 @@ void write(JsonWriter& json, const SceneStudy& scene) {
 
 // --- the folder
 
-// A file's name and what makes its bytes, when it is its turn.
+// A file's name, and the function that makes its bytes when it is written.
 struct File {
   std::string name;
   std::function<std::string()> bytes;
 };
 
-// Letters, digits and '-' stay, anything else becomes '_'; a letter beyond ASCII stays as it is.
+// Keeps letters (also those beyond ASCII), digits and '-'; anything else becomes '_'.
 std::string file_name(const std::string& text) {
   std::string result;
   for (const char c : text) {

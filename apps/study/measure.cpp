@@ -37,7 +37,7 @@ double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC
 
 std::string seconds_text(double seconds) { return apps::formatted("%.3g", seconds); }
 
-// Stops a run that takes too long, or when the study itself is to stop.
+// Stops a run that takes too long, or if the study itself is stopped.
 class RunLimit {
  public:
   RunLimit(double seconds, const radiosity::Control& outer)
@@ -55,10 +55,10 @@ class RunLimit {
  private:
   std::atomic<bool> stop_{false};
   double end_;
-  std::jthread watcher_;  // last: it looks at the others
+  std::jthread watcher_;  // must be last, because it uses the other members
 };
 
-// Of one run: what the study keeps until it knows which run becomes the picture.
+// The data of one run, kept until it is known which run is shown as a picture.
 struct Measured {
   Run run;
   std::vector<double> cells;  // signed errors of the picture
@@ -91,8 +91,8 @@ Measured errors_of_run(const radiosity::Scene& scene, const TrueRadiosity& truth
   return measured;
 }
 
-// The error of what the scene's camera sees of the true objects, coloured by the solution: 16 points a pixel. Few pixels, but enough to
-// tell it to a quarter of itself or so.
+// Measures the error of what the scene's camera sees: the true objects, coloured by the solution, at 16 points per pixel. A small number
+// of pixels is enough to know the error to about a quarter of itself.
 class PictureJudge {
  public:
   PictureJudge(const radiosity::Scene& scene, const radiosity::Camera& camera)
@@ -126,10 +126,10 @@ class PictureJudge {
   std::optional<radiosity::PictureAudit> audit_;
 };
 
-// A run with a result, or with the reason why there is none.
+// Runs one setting; the result contains errors, or the reason why there are none.
 Measured run_once(const radiosity::Scene& scene, const TrueRadiosity& truth, const PictureJudge& judge, const Setting& setting,
                   const MeasureOptions& options, const radiosity::Control& control) {
-  constexpr double brief = 0.3;  // seconds; what takes less is run three times, and the shortest time counts
+  constexpr double brief = 0.3;  // seconds; a shorter run is repeated up to three times, and the shortest time counts
   radiosity::Outcome outcome;
   std::uint64_t peak_bytes = 0;
   for (int k = 0; k < 3; ++k) {
@@ -137,7 +137,7 @@ Measured run_once(const radiosity::Scene& scene, const TrueRadiosity& truth, con
     const RunLimit run_limit{options.cpu_seconds_per_run, control};
     const double begin = cpu_seconds();
     radiosity::Outcome again = setting.run(scene, run_limit.control());
-    // The best so far names the time of its own round alone; what was spent is what counts.
+    // The solution of an interrupted run states the time of its last round only; all the time spent must count.
     if (again.solution && again.solution->audit.interrupted) { again.solution->audit.cpu_seconds = cpu_seconds() - begin; }
     const bool of_other_setting = again.solution && again.solution->audit.coarsened;
     if (!again.solution || of_other_setting) {
@@ -149,7 +149,7 @@ Measured run_once(const radiosity::Scene& scene, const TrueRadiosity& truth, con
                                                            : again.failure.sentences.front();
       return none;
     }
-    // Later runs find the first one's solution in memory. A comparison comes after the run proper and is not counted.
+    // Later runs find memory still allocated by the first one. A comparison follows the actual run and is not counted.
     if (k == 0) { peak_bytes = meter.taken(again.solution->audit, "reconstruct").value_or(0); }
     const double before = outcome.solution ? outcome.solution->audit.cpu_seconds : std::numeric_limits<double>::infinity();
     if (again.solution->audit.cpu_seconds < before) { outcome = std::move(again); }
@@ -176,7 +176,7 @@ Measured run_once(const radiosity::Scene& scene, const TrueRadiosity& truth, con
   return measured;
 }
 
-// The run whose picture comes nearest to an error of one per cent.
+// The picture of the run whose error is closest to one per cent (by ratio).
 std::optional<ErrorPicture> picture_of(const TrueRadiosity& truth, const Method& method, const std::vector<Measured>& runs) {
   const Measured* best = nullptr;
   const auto away = [](const Measured& m) { return std::abs(std::log(std::max(1e-12, m.run.weighted_error.cells.l2) / 0.01)); };
@@ -197,7 +197,7 @@ std::vector<Color> values_at(const radiosity::Scene& scene, const radiosity::Sol
   if (leaf_values != nullptr) {
     constant = mesh;
     for (const radiosity::MeshFace& face : mesh.faces) {
-      if (!(solution.area[face.node] > 0.0)) { continue; }  // no sample of it is exposed: its neighbours stand for it
+      if (!(solution.area[face.node] > 0.0)) { continue; }  // none of its samples is exposed; neighbouring leaves give its colours
       for (std::uint32_t c = 0; c < face.corner_count; ++c) {
         constant.corners[face.first_corner + c].radiosity = (*leaf_values)[face.node];
       }

@@ -34,7 +34,7 @@ Options common(const MethodOptions& study) {
   return options;
 }
 
-// The same run with a dense solution on its leaves.
+// The same run, with a dense solution on its leaves.
 Outcome run_dense(const Scene& scene, Options options, const Control& control) {
   options.compare = std::numeric_limits<std::uint32_t>::max();
   return radiosity::solve(scene, options, control);
@@ -46,7 +46,7 @@ Outcome run_without_shortcuts(const Scene& scene, Options options, const Control
   return radiosity::solve(scene, options, control);
 }
 
-// A hierarchical method whose settings are values of one option.
+// A hierarchical method whose settings are values of a single option.
 MethodPlan hierarchical(std::string name, std::string summary, const char* option, const std::vector<double>& values, const Options& base,
                         void (*set)(Options&, double)) {
   MethodPlan method{std::move(name), std::move(summary), {}};
@@ -61,7 +61,7 @@ MethodPlan hierarchical(std::string name, std::string summary, const char* optio
   return method;
 }
 
-// The smallest patch shrinks with epsilon, so that shadows get finer, too.
+// The smallest patch shrinks with epsilon, so that shadows become finer too.
 void set_epsilon(Options& options, double epsilon) {
   options.epsilon = epsilon;
   options.min_area = 2.4 * epsilon * epsilon;
@@ -72,7 +72,7 @@ void set_target(Options& options, double target) {
   options.target = target;
 }
 
-// The rounds with their audits are what the method costs.
+// The rounds and their audits belong to the cost of this method.
 Outcome run_to_error(const Scene& scene, const Options& options, const Control& control) {
   Outcome outcome = radiosity::solve(scene, options, control);
   if (!outcome.solution) { return outcome; }
@@ -88,7 +88,7 @@ MethodPlan accuracy_target(std::string name, std::string summary, const Options&
     options.refinement = radiosity::Refinement::a_posteriori;
     options.audit_points = 1000;
     options.error = error;
-    Options last = options;  // of the rounds
+    Options last = options;  // of the last round
     last.error.reset();
     last.audit_points = 0;
     method.settings.push_back({text("error", error),
@@ -114,7 +114,7 @@ radiosity::UniformOptions uniform_options(const MethodOptions& study, radiosity:
   return options;
 }
 
-// With the dense solution of the same mesh, which tells the parts of the error apart.
+// The second run has the dense solution of the same mesh, from which the parts of the error are computed.
 Setting uniform_setting(std::string name, const radiosity::UniformOptions& options) {
   radiosity::UniformOptions matrix = options;
   matrix.solver = radiosity::UniformSolver::gauss_seidel;
@@ -143,7 +143,7 @@ MethodPlan plain_program(const MethodOptions& study) {
                     "every face cut evenly; quasi-random direct light, and for each leaf a stored list of what its cosine-distributed rays "
                     "meet, iterated: what one would write without a hierarchy, on our ray caster",
                     {}};
-  const std::array<std::uint32_t, 7> rays{32, 48, 64, 96, 128, 192, 256};  // of the largest leaf
+  const std::array<std::uint32_t, 7> rays{32, 48, 64, 96, 128, 192, 256};  // for the largest leaf
   for (std::size_t k = 0; k < rays.size(); ++k) {
     const int leaves = 128 << k;
     radiosity::UniformOptions options = uniform_options(study, radiosity::UniformSolver::gather_lists, leaves);

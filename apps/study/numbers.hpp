@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Numbers as text, for people. What was not measured (NaN) is a dash.
+// Numbers as text for people. A value that was not measured (NaN) is a dash.
 
 #include <array>
 #include <cmath>
@@ -21,7 +21,7 @@ namespace study {
 
 [[nodiscard]] inline std::string signed_number(double x) { return (std::isfinite(x) && x >= 0.0 ? "+" : "") + fixed(x, 2); }
 
-// Three significant digits, plain between 0.001 and a million.
+// Three significant digits, without an exponent between 0.001 and a million.
 [[nodiscard]] inline std::string figure(double x) {
   if (!std::isfinite(x)) { return "–"; }
   const double size = std::abs(x);
@@ -32,7 +32,7 @@ namespace study {
   return apps::formatted("%.3g", x);
 }
 
-// At the ticks of an axis: as few characters as say the value.
+// For the ticks of an axis: as few characters as possible.
 [[nodiscard]] inline std::string short_number(double x) {
   static constexpr std::array<const char*, 5> prefixes = {"", " k", " M", " G", " T"};
   std::size_t i = 0;
@@ -49,7 +49,7 @@ namespace study {
   return apps::trimmed(100.0 * fraction, 2 - static_cast<int>(std::floor(std::log10(std::abs(100.0 * fraction))))) + " %";
 }
 
-// 12 300 000 -> "12.3 MB": thousands, as of disks.
+// 12 300 000 -> "12.3 MB", with powers of 1000 as for disks.
 [[nodiscard]] inline std::string bytes_text(std::uint64_t bytes) {
   static constexpr std::array<const char*, 5> units = {" B", " kB", " MB", " GB", " TB"};
   auto x = static_cast<double>(bytes);
@@ -58,7 +58,7 @@ namespace study {
   return (i == 0 ? fixed(x, 0) : figure(x)) + units[i];
 }
 
-// 9 876, 12.3 k, 1.23 M; the space of the first is narrow and does not break.
+// 9 876, 12.3 k, 1.23 M; the space between digits is narrow and non-breaking.
 [[nodiscard]] inline std::string count_text(std::uint64_t count) {
   if (count >= 10000) {
     static constexpr std::array<const char*, 4> units = {" k", " M", " G", " T"};

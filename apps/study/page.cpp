@@ -51,7 +51,7 @@ class Page {
     text_ += "</dl>\n";
   }
 
-  // A table of all scenes: the time of each method to the error that most of them reach.
+  // A table of all scenes: the time that each method needs for the error that most of them reach.
   void overview() {
     std::vector<std::string> names;
     for (const SceneStudy& s : study_.scenes) {
@@ -82,7 +82,7 @@ class Page {
   void overview_row(const SceneStudy& scene, const std::vector<std::string>& names) {
     double goal = 0.0;
     std::size_t most = 0;
-    for (const double target : targets(scene)) {  // from large to small
+    for (const double target : targets(scene)) {  // in decreasing order
       const auto reaches = [&](const Method& m) { return cheapest_within(m, scene.reference, target, Cost::cpu_time) != nullptr; };
       const auto count = static_cast<std::size_t>(std::count_if(scene.methods.begin(), scene.methods.end(), reaches));
       if (count >= most) { goal = target, most = count; }

@@ -131,7 +131,7 @@ Merged merge(std::vector<Part> parts) {
         SceneStudy& from = part.study.scenes[at];
         const auto which = std::find(part.methods[at].begin(), part.methods[at].end(), method);
         if (which == part.methods[at].end()) { continue; }
-        if (!found) {  // the first method tells what the scene does not need, as it does on one machine
+        if (!found) {  // the first method says what was left out of the scene, as on a single machine
           found = true;
           merged = {from.scene, from.title, from.camera, from.reference, {}, {}, from.left_out};
         }

@@ -69,7 +69,7 @@ Shape noise_line(const glm::dvec2& from, const glm::dvec2& to) { return {.points
 
 Shape front_line(std::vector<glm::dvec2> points) { return {.points = std::move(points), .stroke_width = 7.0, .opacity = 0.16}; }
 
-// Every point is reached at its cost and stays reachable at any higher one.
+// Draws the Pareto front as a staircase: an error reached at some cost is also reachable at any higher cost.
 void draw_front(Drawing& drawing, const PlotFrame& frame, const std::vector<Curve>& curves) {
   std::vector<CostPoint> all;
   for (const Curve& curve : curves) { all.insert(all.end(), curve.points.begin(), curve.points.end()); }
@@ -113,7 +113,7 @@ std::string slope_text(const Curve& curve) {
   return std::any_of(curve.points.begin(), curve.points.end(), drawable) ? "no slope: too few points" : "no result";
 }
 
-// From `at` downwards; returns where it ends.
+// Draws the legend from `at` downwards; returns the y of its end.
 double draw_legend(Drawing& drawing, glm::dvec2 at, const std::vector<Curve>& curves, double noise) {
   const auto entry = [&](Shape sample, const std::string& name, const std::string& note) {
     drawing.add(std::move(sample));
@@ -188,7 +188,7 @@ Drawing panels(const PlotText& text, const std::vector<Panel>& panels, double no
   for (const Panel& panel : panels) { all.insert(all.end(), panel.curves.begin(), panel.curves.end()); }
   PlotFrame frame(all, noise);
   frame.left = 64.0, frame.width = 196.0, frame.height = 146.0;
-  const double step_x = frame.width + 34.0;  // the last label of one and the first of the next
+  const double step_x = frame.width + 34.0;  // with room for the last label of one panel beside the first of the next
   const double step_y = frame.height + 48.0;
   const double rows = std::ceil(static_cast<double>(panels.size()) / static_cast<double>(columns));
   drawing.width = frame.left + step_x * columns;
@@ -200,7 +200,7 @@ Drawing panels(const PlotText& text, const std::vector<Panel>& panels, double no
     frame.top = first_top + step_y * static_cast<double>(i / columns);
     Drawing axes;
     draw_axes(axes, frame, 10.0);
-    for (auto& item : axes.items) {  // only the first of a row names the errors
+    for (auto& item : axes.items) {  // only the first panel of a row labels the error axis
       const auto* label = std::get_if<Label>(&item);
       if (column == 0 || label == nullptr || label->anchor != Anchor::end) { drawing.items.push_back(std::move(item)); }
     }
@@ -231,7 +231,7 @@ Drawing panels(const PlotText& text, const std::vector<Panel>& panels, double no
 
 namespace {
 
-// By the order in which the study names its methods first.
+// The index of the method in the order in which the study first names its methods.
 std::size_t style_index(const Study& study, const std::string& method) {
   std::vector<std::string> names;
   for (const SceneStudy& scene : study.scenes) {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Work-precision plots: error against cost on logarithmic axes, one curve a method, a mark at every setting.
+// Work-precision plots: error against cost on logarithmic axes, one curve per method, a mark at every setting.
 //
-// Points that are limited by the reference's noise are hollow and stand on the line of that noise: the error is at most that. The Pareto
-// front of all methods lies as a grey staircase behind the curves: no run is left of it or below. The legend gives each method's
-// fitted slope (verdicts.hpp).
+// Points limited by the reference's noise are hollow and lie on the line of that noise: the error is at most that. The Pareto front of
+// all methods is a grey staircase behind the curves: no run lies to the left of it or below it. The legend gives each method's fitted
+// slope (verdicts.hpp).
 
 #include <array>
 #include <cmath>
@@ -20,8 +20,8 @@
 
 namespace study {
 
-// How curves are told apart: by colour (Okabe and Ito 2008, made for colour-blind readers; their yellow is too pale for lines on paper
-// and left out), and by the shape of the marks where a page is printed grey. After seven curves the lines are dashed.
+// Curves are distinguished by colour (Okabe and Ito 2008, designed for colour-blind readers; their yellow is left out, because it is too
+// pale for lines on paper) and by the shape of the marks, in case the page is printed in grey. After seven curves the lines are dashed.
 enum class Mark { circle, square, triangle, diamond, triangle_down, pentagon, cross, star, saltire };
 
 struct CurveStyle {
@@ -33,18 +33,18 @@ struct CurveStyle {
 inline constexpr std::array<Srgb, 7> curve_colors = {0x0072b2, 0xd55e00, 0x009e73, 0xcc79a7, 0xe69f00, 0x56b4e9, 0x000000};
 inline constexpr std::size_t mark_count = 9;
 
-// Any two of the first 63 styles differ in colour or mark, the first seven in both.
+// Any two of the first 63 styles differ in colour or mark; the first seven differ in both.
 [[nodiscard]] inline CurveStyle curve_style(std::size_t index) {
   return {curve_colors[index % curve_colors.size()], static_cast<Mark>(index % mark_count),
           index % (2 * curve_colors.size()) >= curve_colors.size()};
 }
 
-// The outline of a mark. All marks have about the area of a circle of this radius.
+// The outline of a mark. All marks have approximately the area of a circle of this radius.
 [[nodiscard]] inline std::vector<glm::dvec2> mark_outline(Mark mark, const glm::dvec2& at, double radius) {
   constexpr double pi = std::numbers::pi;
   std::vector<glm::dvec2> points;
   const auto add = [&](double angle, double r) { points.push_back(at + radius * r * glm::dvec2(std::sin(angle), -std::cos(angle))); };
-  if (mark == Mark::cross || mark == Mark::saltire) {  // a plus of arms as wide as they are long, upright or turned
+  if (mark == Mark::cross || mark == Mark::saltire) {  // four arms as wide as long, upright or rotated
     constexpr double arm = 1.32, half = 0.44;
     const double corner = std::hypot(arm, half), skew = std::atan2(half, arm);
     for (int i = 0; i < 4; ++i) {
@@ -55,7 +55,7 @@ inline constexpr std::size_t mark_count = 9;
     }
     return points;
   }
-  struct Ring {  // corners, every other one at the inner radius
+  struct Ring {  // a star or polygon: every second corner is at the inner radius
     int corners = 0;
     double turn = 0.0, outer = 1.0, inner = 1.0;
   };
@@ -77,19 +77,19 @@ struct Curve {
   std::string name;
   CurveStyle style;
   std::vector<CostPoint> points;    // in the order of the settings
-  std::vector<std::string> titles;  // one a point: what a browser shows
+  std::vector<std::string> titles;  // one per point: tooltip in a browser
 };
 
 struct PlotText {
   std::string title;
-  std::string cost;   // what stands at the axes
-  std::string error;  // a fraction; ticks are in per cent
+  std::string cost;   // labels of the axes
+  std::string error;  // the error is a fraction; its ticks are in per cent
 };
 
-// The field between the axes, and where values fall in it.
+// The area between the axes, and the positions of values in it.
 class PlotFrame {
  public:
-  // The axes hold all points and the noise.
+  // The axes include all points and the noise.
   PlotFrame(const std::vector<Curve>& curves, double noise);
 
   [[nodiscard]] glm::dvec2 at(double cost, double error) const;
@@ -97,10 +97,10 @@ class PlotFrame {
   [[nodiscard]] double bottom() const { return top + height; }
 
   double left = 78.0, top = 34.0, width = 430.0, height = 300.0;
-  double cost_low = 0.1, cost_high = 10.0, error_low = 0.001, error_high = 0.1;  // at the ends of the axes
+  double cost_low = 0.1, cost_high = 10.0, error_low = 0.001, error_high = 0.1;  // values at the ends of the axes
 };
 
-// `noise` is 0 without one. Curves without any point that can be drawn stand in the legend as such.
+// `noise` is 0 if there is none. Curves without any drawable point are marked as such in the legend.
 [[nodiscard]] Drawing plot(const PlotText& text, const std::vector<Curve>& curves, double noise);
 
 struct Panel {
@@ -108,17 +108,17 @@ struct Panel {
   std::vector<Curve> curves;
 };
 
-// One small plot a panel on the same axes, three in a row; the legend below names the curves of the first panel.
+// One small plot per panel, all with the same axes, three in a row; the legend below names the curves of the first panel.
 [[nodiscard]] Drawing panels(const PlotText& text, const std::vector<Panel>& panels, double noise);
 
-// The plots of a study: which curves, of which errors, against which cost.
+// A plot of a study.
 struct Figure {
-  std::string name;     // for the file
+  std::string name;     // for the name of its file
   std::string caption;  // one or two sentences
   Drawing drawing;
 };
 
-// Error against CPU time, memory and links, and what the reconstructions change. A method has the same colour and mark in all scenes.
+// Error against CPU time, memory and links, and the effect of the reconstructions. A method has the same colour and mark in all scenes.
 [[nodiscard]] std::vector<Figure> figures(const Study& study, const SceneStudy& scene);
 
 }  // namespace study

@@ -26,7 +26,7 @@ namespace {
 
 using radiosity::Color;
 
-// B of a scene that is a furnace: closed, with E = B (1 - rho) on every surface.
+// The uniform radiosity B of a furnace, i.e. a closed scene with E = B (1 - rho) on every surface; nothing for other scenes.
 std::optional<Color> furnace_radiosity(const radiosity::Scene& scene, const radiosity::Plan& plan) {
   if (!plan.closed) { return std::nullopt; }
   Color b{0.0};
@@ -44,7 +44,7 @@ std::optional<Color> furnace_radiosity(const radiosity::Scene& scene, const radi
   return b;
 }
 
-// Up to four exposed points of a leaf, one a quarter; the cell when there are any.
+// Adds a cell for the leaf, with up to four exposed points, one per quarter, unless there is none.
 void add_cell(TrueRadiosity& truth, const radiosity::Prepared& prepared, const radiosity::Node& leaf, std::uint64_t seed) {
   const radiosity::Surface& surface = prepared.surfaces[leaf.object];
   const std::uint32_t sheet = leaf.surface - surface.first_surface;
@@ -52,7 +52,7 @@ void add_cell(TrueRadiosity& truth, const radiosity::Prepared& prepared, const r
   if (!(patch.area > 0.0)) { return; }
   const auto cell = static_cast<std::uint32_t>(truth.cells.size());
   const auto first = static_cast<std::uint32_t>(truth.points.size());
-  constexpr int tries = 16;  // in each quarter
+  constexpr int tries = 16;  // per quarter
   int exposed = 0;
   for (std::uint32_t quarter = 0; quarter < 4; ++quarter) {
     radiosity::Random random{seed, cell, quarter};
@@ -106,7 +106,7 @@ std::optional<TrueRadiosity> points_of(const radiosity::Scene& scene, radiosity:
   return truth;
 }
 
-// Fills in the values of the points: each the mean of some independent sequences, whose spread gives the standard error.
+// Computes the values of the points: each is the mean of several independent sequences, whose spread gives the standard error.
 void trace(const radiosity::Scene& scene, const radiosity::Prepared& prepared, const ReferenceOptions& options,
            const radiosity::Control& control, TrueRadiosity& truth) {
   const radiosity::PathTracer tracer{scene, prepared.objects, prepared.surfaces};

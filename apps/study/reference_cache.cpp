@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// The file that keeps a reference: JSON in one fixed layout, so that a reader compares its head with the expected text and reads numbers.
+// The file that stores a reference: JSON in a fixed layout, so that reading only compares its head with the expected text and reads
+// numbers.
 //
-// A study keeps it where nobody has asked for a file: beside the scene. So a file that is there already is replaced only when it begins
-// with this scene's key: then it is an older or a damaged copy of the same values.
+// A study stores it beside the scene, where the user has not requested a file. Therefore an existing file is replaced only if it begins
+// with this scene's key, so that it is an older or damaged copy of the same values.
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -19,10 +20,10 @@
 namespace study {
 namespace {
 
-// What a file for this key begins with.
+// The beginning of a file for this key.
 std::string opening(const std::string& key) { return "{\n  \"halflight_reference\": 1,\n  \"key\": \"" + key + "\",\n"; }
 
-// Everything before the values.
+// The text before the values.
 std::string text_before_values(const std::string& key, const std::string& checksum, std::uint64_t paths, std::size_t points) {
   return opening(key) + "  \"checksum\": \"" + checksum + "\",\n  \"paths\": " + std::to_string(paths) +
          ",\n  \"points\": " + std::to_string(points) +
@@ -48,7 +49,7 @@ std::optional<std::uint64_t> count_after(std::string_view file, std::string_view
 
 namespace fs = std::filesystem;
 
-// A file of another name: "room.reference.json" becomes "room.KEY.reference.json".
+// Another name for the file: "room.reference.json" becomes "room.KEY.reference.json".
 std::string with_key(const std::string& path, const std::string& key) {
   const fs::path whole(path);
   const std::string name = whole.filename().string();
@@ -58,8 +59,8 @@ std::string with_key(const std::string& path, const std::string& key) {
 
 enum class Place { free, ours, taken };
 
-// Whether a reference may be written there; what lies there already, if it can be read. A file of which nothing but its place is known is
-// another's, and so is a file for another scene.
+// May a reference be written there? Sets `text` to the content of the file if it is ours. A file that cannot be read counts as foreign,
+// and so does one for another scene.
 Place look_at(const std::string& path, const std::string& key, std::string& text) {
   std::error_code ignored;
   const fs::file_type type = fs::status(path, ignored).type();

@@ -10,7 +10,7 @@
 namespace study {
 namespace {
 
-// Calls use(method, run, first of its method?, on the Pareto front of CPU time?).
+// Calls use(method, run, is it the first of its method?, is it on the Pareto front of CPU time?).
 template <class Use>
 void each_run(const SceneStudy& scene, const Use& use) {
   const std::set<const Run*> front = on_front(scene);

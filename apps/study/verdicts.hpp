@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// What tables and plots say about a run. An error that was measured below the noise of its reference is known only to be at most that
-// noise: the noise is given in its place, and marked.
+// How tables and plots judge a run. An error measured below the noise of its reference is known only to be at most that noise; the noise
+// is shown instead, and marked.
 //
-// How error falls with cost: the power law  error = factor * cost^exponent  through the points of one method, by least squares in log-log.
-// Points whose error is no more than the reference's noise say nothing about the method and are left out.
+// The dependence of error on cost: the power law  error = factor * cost^exponent  through the points of a method, by least squares in
+// log-log. Points whose error does not exceed the reference's noise give no information about the method and are left out.
 
 #include <algorithm>
 #include <array>
@@ -25,10 +25,10 @@ namespace study {
 struct CostPoint {
   double cost = 0.0;
   double error = 0.0;
-  bool limited = false;  // by the noise of the reference: the error is at most this
+  bool limited = false;  // is the error limited by the noise of the reference? Then it is at most this value
 };
 
-// Can it be drawn on logarithmic axes?
+// Can the point be drawn on logarithmic axes?
 [[nodiscard]] inline bool drawable(const CostPoint& p) {
   return std::isfinite(p.cost) && std::isfinite(p.error) && p.cost > 0.0 && p.error > 0.0;
 }
@@ -40,7 +40,7 @@ struct PowerLaw {
   std::size_t points = 0;
 };
 
-// Nothing with fewer than three points, or when all have the same cost: two points fit every line.
+// Nothing if there are fewer than three points, because a line fits any two, or if all have the same cost.
 [[nodiscard]] inline std::optional<PowerLaw> fit_power_law(const std::vector<CostPoint>& points) {
   double n = 0.0;
   double mean_x = 0.0;
@@ -57,7 +57,7 @@ struct PowerLaw {
   double xx = 0.0;
   double xy = 0.0;
   each([&](double x, double y) { xx += (x - mean_x) * (x - mean_x), xy += (x - mean_x) * (y - mean_y); });
-  // Costs that differ by less than 1 part in a million have no slope.
+  // Costs that differ by less than one part in a million determine no slope.
   if (!(xx > 1e-12 * n)) { return std::nullopt; }
   PowerLaw law;
   law.exponent = xy / xx;
@@ -72,10 +72,10 @@ struct PowerLaw {
   return law;
 }
 
-// The Pareto front: the points that no other point beats. A point is beaten by one that costs no more and errs no more, and less in one of
-// the two; of equal points the first stays. Along the front cost rises and error falls, strictly.
+// The Pareto front: the points that no other point dominates. A point dominates another if it has no larger cost and error, and one of
+// them is smaller; of equal points the first is kept. Along the front, cost increases and error decreases strictly.
 //
-// Indices of the points on the front, cheapest first. Points that cannot be drawn are never on it.
+// Returns the indices of the points on the front, sorted by cost. Points that cannot be drawn are never on it.
 [[nodiscard]] inline std::vector<std::size_t> pareto_front(const std::vector<CostPoint>& points) {
   std::vector<std::size_t> order;
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -93,7 +93,7 @@ struct PowerLaw {
 
 struct KnownError {
   double value = std::numeric_limits<double>::quiet_NaN();  // NaN: not measured
-  bool limited = false;                                     // by noise: at most the value
+  bool limited = false;                                     // limited by noise: the error is at most the value
 };
 
 [[nodiscard]] inline KnownError known_error(double measured, double noise) {
@@ -101,11 +101,11 @@ struct KnownError {
   return measured < noise ? KnownError{noise, true} : KnownError{measured, false};
 }
 
-// In per cent: "1.20", "< 0.400", "–" in tables that name the unit, "1.20 %" elsewhere.
+// In per cent: "1.20", "< 0.400", "–" for tables whose head names the unit, "1.20 %" elsewhere.
 [[nodiscard]] inline std::string to_number(const KnownError& error) { return (error.limited ? "< " : "") + figure(100.0 * error.value); }
 [[nodiscard]] inline std::string to_text(const KnownError& error) { return to_number(error) + (std::isfinite(error.value) ? " %" : ""); }
 
-// What the error is the error of.
+// The kind of solution whose error is measured.
 enum class Stage { leaves, simple, weighted };
 inline constexpr std::array<Stage, 3> stages = {Stage::leaves, Stage::simple, Stage::weighted};
 [[nodiscard]] inline const char* name(Stage stage) {
@@ -115,10 +115,10 @@ inline constexpr std::array<Stage, 3> stages = {Stage::leaves, Stage::simple, St
   return stage == Stage::leaves ? run.leaves_error : stage == Stage::simple ? run.simple_error : run.weighted_error;
 }
 
-// Is there a result, and is it what the setting asked for?
+// Is there a complete result, not one that was stopped early?
 [[nodiscard]] inline bool credited(const Run& run) { return run.refused.empty() && run.cut_off.empty(); }
 
-// By which methods are compared: relative L2 of the cell means, before reconstruction.
+// The error by which methods are compared: relative L2 of the cell means, before reconstruction.
 [[nodiscard]] inline KnownError main_error(const Run& run, const Reference& reference) {
   return credited(run) ? known_error(run.leaves_error.cells.l2, reference.noise) : KnownError{};
 }
@@ -130,7 +130,7 @@ enum class Cost { cpu_time, memory, links };
   return cost == Cost::cpu_time ? run.cpu_seconds : static_cast<double>(cost == Cost::memory ? run.peak_bytes : run.links);
 }
 
-// A dash where the peak is not known.
+// A dash if the peak is not known.
 [[nodiscard]] inline std::string memory_text(const Run& run) { return run.peak_bytes > 0 ? bytes_text(run.peak_bytes) : "–"; }
 
 [[nodiscard]] inline CostPoint point_of(const Run& run, const Reference& reference, Cost cost) {
@@ -138,14 +138,14 @@ enum class Cost { cpu_time, memory, links };
   return {cost_of(run, cost), error.value, error.limited};
 }
 
-// One a run.
+// One point per run.
 [[nodiscard]] inline std::vector<CostPoint> points_of(const Method& method, const Reference& reference, Cost cost) {
   std::vector<CostPoint> points;
   for (const Run& run : method.runs) { points.push_back(point_of(run, reference, cost)); }
   return points;
 }
 
-// The runs of all methods that no other run beats in error and CPU time.
+// The runs of all methods that no other run dominates in error and CPU time.
 [[nodiscard]] inline std::set<const Run*> on_front(const SceneStudy& scene) {
   std::vector<CostPoint> points;
   std::vector<const Run*> runs;
@@ -170,7 +170,7 @@ enum class Cost { cpu_time, memory, links };
   return best;
 }
 
-// The run of least error; of equal ones the cheapest.
+// The run with the smallest error; of equal ones the cheapest.
 [[nodiscard]] inline const Run* most_accurate(const Method& method, const Reference& reference) {
   const Run* best = nullptr;
   for (const Run& run : method.runs) {
@@ -182,7 +182,7 @@ enum class Cost { cpu_time, memory, links };
   return best;
 }
 
-// The errors at which methods are compared: up to three of 10 %, 5 %, 2 %, 1 %, ..., the smallest that any run reaches.
+// The errors at which methods are compared: of 100 %, 50 %, 20 %, 10 %, ..., up to three, the smallest that any run reaches.
 [[nodiscard]] inline std::vector<double> targets(const SceneStudy& scene) {
   std::vector<double> reached;
   for (int decade = 0; decade >= -9; --decade) {

@@ -16,7 +16,7 @@
 namespace apps::vrml {
 namespace {
 
-// What the state's material says; of VRML 97 a Color node in its place.
+// The field of the state's material; in VRML 97 a Color node replaces the material's diffuse colour.
 const Field* found_in(const State& state, std::string_view field) {
   if (state.colors != nullptr && field == "diffuseColor") { return state.colors->find("color"); }
   return state.material != nullptr ? state.material->find(field) : nullptr;
@@ -60,7 +60,7 @@ ModelMaterial Looks::made(const State& state, const Numbers& numbers, std::size_
   if (all > 1) { material.name += numbers.size() > 1 ? ".mean" : "." + std::to_string(numbers[0]); }
   const Node* const texture = state.texture;
   const auto& picture = pictures_.of(texture, [&] { return texture != nullptr ? picture_of(*texture, side_file_, notes_) : nullptr; });
-  // In VRML 97 a picture with colours stands in the place of the diffuse colour, one in grey is multiplied with it.
+  // In VRML 97 a coloured picture replaces the diffuse colour; a grey one is multiplied by it.
   const glm::dvec3 mean = picture ? picture->mean() : glm::dvec3(1.0);
   const bool replaces = picture && texture->version == Version::v97 && !(mean.x == mean.y && mean.y == mean.z);
   material.reflectance = (replaces ? glm::dvec3(1.0) : color("diffuseColor", glm::dvec3(0.8))) * mean;
@@ -88,7 +88,7 @@ Looks::Numbers Looks::numbers(const Node& face_set, const State& state, const Fa
     case Binding::per_vertex_indexed: {
       notes_.add("faces with a material for each corner have the mean of their colours", at_line_of(face_set));
       Numbers numbers;
-      for (std::size_t k = 0; k < of.count; ++k) {  // without a list of their own they go by the coordinates
+      for (std::size_t k = 0; k < of.count; ++k) {  // without an index list of their own, colours use the coordinate indices
         const std::size_t i = of.first + k;
         numbers.push_back(state.binding == Binding::per_vertex ? of.before + k : listed(i, of.indices->numbers[i]));
       }
@@ -103,7 +103,7 @@ Looks::Numbers Looks::numbers(const Node& face_set, const State& state, const Fa
 
 namespace {
 
-// Of width, height, components and pixels. Null when a number is not what it must be.
+// Reads a picture from numbers: width, height, components and pixels. Null if a number is invalid.
 std::shared_ptr<const intake::Picture> picture_of_image(const std::vector<double>& numbers) {
   const auto whole = [](double x) { return x >= 1.0 && x == std::floor(x); };
   if (numbers.size() < 4 || !std::all_of(numbers.begin(), numbers.begin() + 3, whole) || numbers[2] > 4.0) { return nullptr; }
@@ -119,19 +119,19 @@ std::shared_ptr<const intake::Picture> picture_of_image(const std::vector<double
     const std::uint8_t opaque = bytes % 2 == 0 ? component(bytes - 1) : std::uint8_t{255};
     rgba.insert(rgba.end(), {component(0), component(grey ? 0 : 1), component(grey ? 0 : 2), opaque});
   }
-  return intake::Picture::of_pixels(static_cast<std::uint32_t>(rgba.size() / 4), rgba);  // as one row: its mean alone counts
+  return intake::Picture::of_pixels(static_cast<std::uint32_t>(rgba.size() / 4), rgba);  // as one row, because only its mean is used
 }
 
 }  // namespace
 
-// The pictures of texture nodes: a file beside the scene, or pixels in the field `image`: width, height, number of components (1 grey, 2
-// grey and opacity, 3 red, green and blue, 4 these and opacity), then a number for each pixel, its first component in the highest byte. A
-// surface has the mean of its picture times its diffuse colour.
+// The pictures of texture nodes: a file beside the scene, or pixels in the field `image`: width, height, number of components (1 grey; 2
+// grey, opacity; 3 red, green, blue; 4 red, green, blue, opacity), then one number per pixel, with its first component in the highest
+// byte. A surface has the mean of its picture times its diffuse colour.
 std::shared_ptr<const intake::Picture> picture_of(const Node& texture, const SideFile& side_file, Notes& notes) {
   const Field* const image = texture.find("image");
   const std::string name(texture.word(texture.version == Version::v97 ? "url" : "filename", ""));
   const bool inside = image != nullptr && image->numbers.size() >= 2 && image->numbers[0] * image->numbers[1] != 0.0;
-  if (!inside && name.empty()) { return nullptr; }  // the end of an earlier picture
+  if (!inside && name.empty()) { return nullptr; }  // ends the effect of an earlier picture
   std::string fault;
   std::shared_ptr<const intake::Picture> picture;
   if (inside) {

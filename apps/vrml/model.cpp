@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// VRML as a scene: a walk that makes objects of the shapes. Cube or Box, Sphere, Cylinder and Cone stay what they are, analytic solids with
-// their placement; face sets become polygons. The diffuse colour is the reflectance, the emissive colour a radiance L: the exitance is pi
-// L.
+// Makes a model of a VRML scene by a walk over its graph. Cube or Box, Sphere, Cylinder and Cone become analytic solids with a placement;
+// face sets become polygons. The diffuse colour is the reflectance; the emissive colour is a radiance L, so the exitance is pi L.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -29,9 +28,9 @@
 namespace apps::vrml {
 namespace {
 
-constexpr std::size_t most_corners = 50'000'000;  // of all uses of all face sets
+constexpr std::size_t most_corners = 50'000'000;  // for all uses of all face sets together
 constexpr std::size_t most_inlines = 1000;
-constexpr int sides_of_part = 32;  // of a part of a cylinder or a cone that is no solid
+constexpr int sides_of_part = 32;  // of a cylinder or cone that lacks a part and so is not a solid
 
 class ModelMaker {
  public:
@@ -39,7 +38,7 @@ class ModelMaker {
 
   Model model;
 
-  // --- what nodes mean to the walk (apps/graph_walk.hpp)
+  // --- the meaning of nodes for the walk (apps/graph_walk.hpp)
   bool enter(const std::shared_ptr<const Node>& at, State& state) {
     const Node& node = *at;
     if (change(state, node)) { return true; }
@@ -90,12 +89,12 @@ class ModelMaker {
     }
   }
 
-  // The file that stands in the place of the node; null when there is none.
+  // The content of the file that an Inline node names; null if there is none.
   std::shared_ptr<const Node> inlined(const Node& node) {
     std::string name(node.word(node.version == Version::v97 ? "url" : "name", ""));
     const auto around = files_.find(&node);
     if (around != files_.end() && !name.empty()) { name.insert(0, around->second, 0, around->second.rfind('/') + 1); }
-    name = std::filesystem::path(name).lexically_normal().generic_string();  // one file has one name
+    name = std::filesystem::path(name).lexically_normal().generic_string();  // so that each file has only one name
     const auto [known, is_new] = inlines_.emplace(name, nullptr);
     if (!is_new) { return known->second; }
     std::string fault;
@@ -116,7 +115,7 @@ class ModelMaker {
       return nullptr;
     }
     std::vector<const Node*> open{root.get()};
-    while (!open.empty()) {  // lines are those of that file
+    while (!open.empty()) {  // line numbers in these nodes refer to the inlined file
       const Node* const inner = open.back();
       open.pop_back();
       if (!files_.emplace(inner, name).second) { continue; }
@@ -125,14 +124,14 @@ class ModelMaker {
         for (const auto& child : field->nodes) { open.push_back(child.get()); }
       }
     }
-    inlines_[name] = root;  // one that names itself is found to be too deep
+    inlines_[name] = root;  // a file that inlines itself is later refused as too deep
     return root;
   }
 
-  // An analytic solid; `parts`: of each of its sheets, which part of the node it is.
+  // Adds an analytic solid; `parts`: by sheet, the part of the node to which it belongs.
   template <class MadeObject>
   void add(MadeObject made, const char* kind, const std::vector<std::size_t>& parts, const Node& node, const State& state) {
-    if (model.objects.size() > max_objects) { return; }  // more than a scene may have: refused later
+    if (model.objects.size() > max_objects) { return; }  // exceeds the limit of a scene, which is reported later
     raycast::Placement placement{glm::dmat3(state.transform), glm::dvec3(state.transform[3]), false};
     if (!made.object || raycast::check(*made.object, placement)) {
       return notes_.add("shapes without size, or flattened by their transform, are left out", at_line_of(node));
@@ -152,7 +151,7 @@ class ModelMaker {
     add(raycast::BoxObject::make(-half, half), "box", {2, 3, 5, 4, 1, 0}, node, state);
   }
 
-  // Which of these parts are there, in this order? "ALL" stands for each. In VRML 97 each has a field of its own.
+  // Which of these parts exist, in this order? "ALL" means every part. In VRML 97 each has a field of its own.
   template <std::size_t n>
   static std::array<bool, n> parts(const Node& node, const std::array<std::string_view, n>& names,
                                    const std::array<std::string_view, n>& fields) {
@@ -184,13 +183,13 @@ class ModelMaker {
     open_parts(node, state, {radius, 0.0, height, sides, false, bottom});
   }
 
-  // Parts of a cylinder or a cone, with its radii at both ends.
+  // Parts of a cylinder or a cone, with the radii at both ends.
   struct OpenParts {
     double low, high, height;
     bool sides, top, bottom;
   };
 
-  // Without all its parts it encloses nothing: polygons, seen from both sides.
+  // A cylinder or cone without all its parts encloses nothing: it becomes polygons seen from both sides.
   void open_parts(const Node& node, const State& state, const OpenParts& shape) {
     const bool by_part = state.binding == Binding::per_part || state.binding == Binding::per_part_indexed;
     std::array<std::vector<std::uint32_t>, 2> rings;
@@ -244,7 +243,7 @@ class ModelMaker {
     const auto count = static_cast<double>(points->numbers.size() / 3);
     const std::uint32_t group = new_group(node, state);
     const bool turn = state.clockwise != mirrored(state), two_sided = !(state.ordered && state.solid);
-    std::map<std::uint32_t, std::uint32_t> vertices;  // of the file, here
+    std::map<std::uint32_t, std::uint32_t> vertices;  // from vertex numbers of the file to those of the model
     std::vector<std::uint32_t> corners;
     Looks::FaceCorners of{given};
     for (std::size_t i = 0; i <= index.numbers.size(); ++i) {
@@ -283,7 +282,7 @@ class ModelMaker {
   Notes& notes_;
   Looks looks_{model, side_file_, notes_};
   std::map<std::string, std::shared_ptr<const Node>> inlines_;
-  std::unordered_map<const Node*, std::string> files_;  // of the nodes that were inlined
+  std::unordered_map<const Node*, std::string> files_;  // by node of an inlined file: the file's name
 };
 
 ModelResult read_vrml(std::string_view bytes, const SideFile& side_file) {

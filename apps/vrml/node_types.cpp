@@ -16,7 +16,7 @@ constexpr FieldType number{Kind::numbers, 1, false}, vec2{Kind::numbers, 2, fals
     text{Kind::strings, 1, false}, texts{Kind::strings, 1, true}, word{Kind::words, 1, false}, node{Kind::nodes, 1, false},
     nodes{Kind::nodes, 1, true};
 
-// A node with its fields; true: it may have children.
+// Node types with their fields; `true`: the node may have children.
 const std::vector<NodeType> types{
     {"AsciiText", {{"string", texts}, {"spacing", number}, {"justification", word}, {"width", numbers}}},
     {"Cone", {{"parts", word}, {"bottomRadius", number}, {"height", number}}},
@@ -117,7 +117,7 @@ const FieldType* named_type(std::string_view name) {
 
 std::span<const NodeType> node_types(Version version) { return version == Version::v97 ? node_types_97() : spec::types; }
 
-// --- what a node says
+// --- values of a node's fields
 
 double Node::number(std::string_view field, double otherwise) const {
   const Field* const found = find(field);

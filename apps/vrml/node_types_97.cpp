@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-// The nodes of VRML 97, chapter 6 of the standard: of each the fields, behind their type. Events have no value in a file, so they are not
-// among them.
+// The nodes of VRML 97, chapter 6 of the standard, each with its fields after their types. Events are left out, because they have no
+// value in a file.
 
 namespace apps::vrml {
 namespace {

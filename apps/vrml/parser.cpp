@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Text to nodes. The grammar is that of a node: [DEF name] Type { fields and children }, or USE name. In VRML 97 there are prototypes, too:
-// nodes that a file makes of others.
+// Parses text to nodes. A node is: [DEF name] Type { fields and children }, or USE name. VRML 97 also has prototypes: node types that a
+// file defines by other nodes.
 #include <utility>
 
 #include "apps/vrml/scene_graph.hpp"
@@ -18,7 +18,7 @@ class Parser {
   std::shared_ptr<const Node> run() {
     auto root = std::make_shared<Node>();
     root->type = "Group";
-    while (!in_.at_end() && ok()) {  // one node; extensions of VRML 1.0, and VRML 97, have several
+    while (!in_.at_end() && ok()) {  // standard VRML 1.0 has one node, its extensions and VRML 97 several
       if (auto node = read()) { root->children.push_back(std::move(node)); }
     }
     if (ok() && root->children.empty()) { fail("expected a node such as " + example() + ", found the end of the file"); }
@@ -34,7 +34,7 @@ class Parser {
   [[nodiscard]] std::string example() const { return version_ == Version::v97 ? "Shape" : "Separator"; }
   static std::string at(Place place) { return std::to_string(place.line) + ":" + std::to_string(place.column); }
 
-  // Null when what stood there makes no node, and after an error.
+  // Null for text that makes no node, and after an error.
   std::shared_ptr<const Node> read() {
     if (depth_ > graph_limits.deepest) {
       fail_too_deep(in_.place());
@@ -81,15 +81,15 @@ class Parser {
     if (!ok()) { return nullptr; }
     settle(*node);
     if (prototype != nullptr && prototype->root != nullptr) { node = instance_of(*prototype, *node); }
-    if (node != nullptr && node->height > graph_limits.deepest) { fail_too_deep(node->place); }  // by uses of uses
+    if (node != nullptr && node->height > graph_limits.deepest) { fail_too_deep(node->place); }  // nested uses may exceed the depth
     if (!name.empty() && ok()) { defined_[name] = node; }
     return ok() ? node : nullptr;
   }
 
-  // To behind the closing brace. `prototype`: of which the node is an instance; null: of none.
+  // Parses to the closing brace, inclusive. `prototype`: the one of which the node is an instance; null if it is not an instance.
   void body(Node& node, const Prototype* prototype) {
     const NodeType* type = prototype == nullptr ? node_type(version_, node.type) : nullptr;
-    FieldTypes own;  // that the node itself declares
+    FieldTypes own;  // declared by the node itself
     if (version_ == Version::v97 && type == nullptr && (prototype == nullptr || prototype->root == nullptr)) {
       if (prototype != nullptr) {
         notes_.add("the prototype " + mesh_file::shown(node.type) + " is in another file: its instances are passed over", at_line_of(node));
@@ -107,7 +107,7 @@ class Parser {
       if (!in_.is_word()) { return fail("expected a field or a node in " + node.type + ", " + found()); }
       const std::string_view word = in_.token();
       const FieldTypes& declared = prototype != nullptr ? prototype->types : own;
-      // What a file declares may not change the fields that a node has anyway.
+      // Declared fields must not change the type of built-in fields of a node.
       const FieldType* const known = type != nullptr ? field_type(*type, word) : nullptr;
       const auto among = declared.find(word);
       const FieldType* const field = known == nullptr && among != declared.end() ? &among->second : known;
@@ -152,7 +152,7 @@ class Parser {
   void unknown_field(const std::string& node, std::string_view word, const NodeType* type, const FieldTypes& declared) {
     const Place place = in_.place();
     in_.next();
-    if (version_ == Version::v97 && in_.take("IS")) { return in_.next(); }  // an event of the node is that of the prototype
+    if (version_ == Version::v97 && in_.take("IS")) { return in_.next(); }  // an event of the node is connected with one of the prototype
     std::vector<std::string_view> known;
     for (const auto& [name, unused] : declared) { known.push_back(name); }
     for (std::size_t i = 0; type != nullptr && i < type->fields.size(); ++i) { known.push_back(type->fields[i].name); }
@@ -161,7 +161,7 @@ class Parser {
     skip_value();
   }
 
-  // Of a field that is not known: what is in brackets, or numbers and strings, or one word or node.
+  // Skips the value of an unknown field: a bracketed list, numbers and strings, or one word or node.
   void skip_value() {
     const Place place = in_.place();
     if (in_.take("[")) {
@@ -180,18 +180,18 @@ class Parser {
     }
   }
 
-  // From behind a mark to behind that which closes it. What is named in between can be used, but is nothing.
+  // Skips from an opening bracket to the closing one, inclusive. Names defined in between may be used, but denote empty nodes.
   void skip_to(std::string_view close, Place opened) {
     in_.skip_to(close, opened, [this](std::string_view name) { defined_[std::string(name)] = std::make_shared<Node>(); });
   }
 
-  // fields [ SFFloat radius, MFString isA ]
+  // Parses a list of declarations such as [ SFFloat radius, MFString isA ].
   void declare(FieldTypes& own) {
     if (!in_.is("[")) { return fail("expected '[' after 'fields', " + found()); }
     for (in_.next(); ok() && !in_.is("]");) { declare_one(own); }
     in_.next();
   }
-  // SFFloat radius. Null after an error.
+  // Parses one declaration such as SFFloat radius. Null after an error.
   const FieldType* declare_one(FieldTypes& own) {
     const FieldType* const type = named_type(in_.token());
     if (type == nullptr) {
@@ -210,7 +210,7 @@ class Parser {
 
   // --- prototypes
 
-  // What may stand in the place of a node in VRML 97 and makes none.
+  // Is this a statement of VRML 97 that may stand where a node may, but makes none?
   [[nodiscard]] bool is_statement() const {
     return version_ == Version::v97 && (in_.is("NULL") || in_.is("ROUTE") || in_.is("PROTO") || in_.is("EXTERNPROTO"));
   }
@@ -221,7 +221,7 @@ class Parser {
     return nullptr;
   }
 
-  // PROTO name [ fields ] { nodes }, of which the first stands for an instance; EXTERNPROTO name [ fields ] "file".
+  // Parses PROTO name [ fields ] { nodes }, whose first node replaces an instance, or EXTERNPROTO name [ fields ] "file".
   void declare_prototype(bool external) {
     const Place place = in_.place();
     in_.next();
@@ -241,7 +241,7 @@ class Parser {
       value({FieldType::Kind::strings, 1, true}, name, file);
     } else if (ok()) {
       fields_of_prototype_ = &made->types;
-      auto outer_names = std::exchange(defined_, {});  // the nodes of the body have names of their own
+      auto outer_names = std::exchange(defined_, {});  // the body of a prototype has its own name space
       body_of_prototype(*made, place);
       defined_ = std::move(outer_names);
     }
@@ -251,7 +251,7 @@ class Parser {
     prototypes_.declare(name, std::move(made));
   }
 
-  // field SFColor color 1 0 0; exposedField; eventIn SFBool on; eventOut
+  // Parses one declaration: field SFColor color 1 0 0, exposedField likewise, eventIn SFBool on, eventOut likewise.
   void declare_field(Prototype& made, bool external) {
     const bool field = in_.is("field") || in_.is("exposedField");
     if (!field && !in_.is("eventIn") && !in_.is("eventOut")) {
@@ -273,7 +273,7 @@ class Parser {
       if (made.root == nullptr) { made.root = std::move(node); }
     }
     in_.next();
-    if (made.root == nullptr) { made.root = std::make_shared<Node>(); }  // one that does nothing
+    if (made.root == nullptr) { made.root = std::make_shared<Node>(); }  // an empty node
   }
 
   std::shared_ptr<Node> instance_of(const Prototype& prototype, const Node& call) {
@@ -290,7 +290,7 @@ class Parser {
 
   // --- values
 
-  // Null when the value is that of a field that the prototype does not have, or that has another type.
+  // Null if the value is that (by IS) of a field that the prototype does not have or that has another type.
   std::shared_ptr<const Field> value_or_is(const FieldType& type, std::string_view field) {
     auto out = std::make_shared<Field>();
     out->place = in_.place();
@@ -330,7 +330,7 @@ class Parser {
   std::size_t depth_ = 0;
   std::map<std::string, std::shared_ptr<const Node>, std::less<>> defined_;
   Prototypes prototypes_;
-  const FieldTypes* fields_of_prototype_ = nullptr;  // of the one whose body is read
+  const FieldTypes* fields_of_prototype_ = nullptr;  // of the prototype whose body is being read; null: none
   std::size_t copies_left_ = graph_limits.most_visits;
 };
 

@@ -14,11 +14,11 @@ class Instantiation {
   Instantiation(const Prototype& prototype, const Fields& given, std::size_t& budget)
       : prototype_(prototype), given_(given), budget_(budget) {}
 
-  // The node itself when it is closed. Recursion is as deep as the node is high, which the parser bounds.
+  // Copies an open node; returns a closed one itself. The recursion is as deep as the node's tree, whose height the parser limits.
   NodePointer copy(const NodePointer& node) {
     if (!node->open) { return node; }
     const auto [known, is_new] = copies_.emplace(node.get(), nullptr);
-    if (!is_new) { return known->second; }  // used twice in the body, so it is one node in the instance, too
+    if (!is_new) { return known->second; }  // used twice in the body, so it is also one node in the instance
     auto made = std::make_shared<Node>(*node);
     take(1 + made->children.size() + made->fields.size());
     copy_list(made->children);
@@ -49,7 +49,7 @@ class Instantiation {
       if (budget_ > 0) { node = copy(node); }
     }
   }
-  // Null when there is none, as of an event.
+  // Null if there is none, e.g. for an event.
   [[nodiscard]] std::shared_ptr<const Field> value(const std::string& name) const {
     if (const auto found = given_.find(name); found != given_.end()) { return found->second; }
     const auto found = prototype_.defaults.find(name);

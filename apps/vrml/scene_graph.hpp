@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The scene graph of VRML 1.0 (Bell, Parisi, Pesce 1995), the second format of the paper: nodes with fields and children, of which one may
-// stand in many places (USE). It is walked once from its root. Nodes that are no shapes change a state, which shapes then find: transform,
-// materials, coordinates, hints. A Separator keeps what its children change to itself, a Group does not.
+// The scene graph of VRML 1.0 (Bell, Parisi, Pesce 1995), the second format of the paper: nodes with fields and children; a node may be
+// used in several places (USE). It is walked once from its root. Nodes that are not shapes change a state (transform, materials,
+// coordinates, hints), which applies to the shapes after them. A Separator confines the changes made by its children, a Group does not.
 //
-// In VRML 97 (ISO/IEC 14772-1:1997) children, materials and coordinates are values of fields, and every node keeps its changes to itself.
-// Its nodes are walked in the same way: a Shape fills a state with what its fields say, and its geometry finds that.
+// In VRML 97 (ISO/IEC 14772-1:1997) children, materials and coordinates are values of fields, and every node confines its changes. Its
+// nodes are walked in the same way: a Shape sets a state from its fields, to which its geometry refers.
 //
 //     text -> parse() -> Node ... -> GraphWalk, with a state: model.cpp makes polygons and objects of every shape, camera and light
 
@@ -40,24 +40,24 @@ struct Node;
 
 struct Field {
   Place place;
-  std::vector<double> numbers;     // of all values, one after the other
-  std::vector<Place> places;       // of the numbers of indices
-  std::vector<std::string> words;  // strings, names of values
+  std::vector<double> numbers;     // of all values, concatenated
+  std::vector<Place> places;       // of the numbers of index fields
+  std::vector<std::string> words;  // strings, names of enumerated values
   std::vector<std::shared_ptr<const Node>> nodes;
-  std::string is;  // not empty: the value is that of the prototype's field of this name
+  std::string is;  // if not empty: the value is that of the prototype's field of this name
 };
 
-// A field may be the value of many nodes, because every instance of a prototype has those of its body.
+// Fields are shared by several nodes, because every instance of a prototype has those of its body.
 using Fields = std::map<std::string, std::shared_ptr<const Field>, std::less<>>;
 
 struct Node {
-  std::string type, name;  // name: by DEF, or empty
+  std::string type, name;  // name: given by DEF, or empty
   Place place;
   Version version = Version::v1;
   Fields fields;
   std::vector<std::shared_ptr<const Node>> children;
-  std::size_t height = 0;  // of the tree below it; 0: nothing is below
-  bool open = false;       // a value in this tree is that of a prototype's field
+  std::size_t height = 0;  // height of the tree below it; 0 for a leaf
+  bool open = false;       // does its tree contain a value of a prototype's field?
 
   [[nodiscard]] const Field* find(std::string_view field) const {
     const auto found = fields.find(field);
@@ -68,10 +68,10 @@ struct Node {
     return found == nullptr || found->nodes.empty() ? nullptr : found->nodes[0].get();
   }
   [[nodiscard]] bool is_false(std::string_view field) const { return word(field, "") == "FALSE"; }
-  // What the file says, or what holds without.
+  // The value in the file, or else the default.
   [[nodiscard]] double number(std::string_view field, double otherwise) const;
   [[nodiscard]] glm::dvec3 vector(std::string_view field, const glm::dvec3& otherwise) const;
-  [[nodiscard]] glm::dvec4 rotation(std::string_view field) const;  // axis and angle; (0, 0, 1, 0)
+  [[nodiscard]] glm::dvec4 rotation(std::string_view field) const;  // axis and angle; default (0, 0, 1, 0)
   [[nodiscard]] std::string_view word(std::string_view field, std::string_view otherwise) const;
 };
 
@@ -79,9 +79,9 @@ struct Node {
 
 inline constexpr GraphLimits graph_limits;
 
-// --- the nodes with their fields: what stands behind the name of a field can only be read when its type is known.
+// --- node types with their fields: a value can only be parsed if the type of its field is known
 
-// How a value is written: so many numbers; in brackets any number of them (`many`); words and strings.
+// The form of a value: `count` numbers, with `many` any number of values in brackets; words and strings.
 struct FieldType {
   enum class Kind : unsigned char { numbers, indices, image, strings, words, nodes };
   Kind kind = Kind::numbers;
@@ -97,13 +97,13 @@ struct FieldEntry {
 struct NodeType {
   std::string_view name;
   std::vector<FieldEntry> fields;
-  bool group = false;  // may have children
+  bool group = false;  // may it have children?
 };
 
-// Null when there is no such node.
+// Null if there is no such node type.
 [[nodiscard]] const NodeType* node_type(Version version, std::string_view name);
 [[nodiscard]] const FieldType* field_type(const NodeType& node, std::string_view field);
-// "SFFloat", "MFVec3f"; null when there is no such type.
+// The type of this name, such as "SFFloat" or "MFVec3f"; null if there is none.
 [[nodiscard]] const FieldType* named_type(std::string_view name);
 // The names of all nodes.
 [[nodiscard]] std::span<const NodeType> node_types(Version version);
@@ -114,37 +114,37 @@ struct NodeType {
 using FieldTypes = std::map<std::string, FieldType, std::less<>>;
 
 struct Prototype {
-  FieldTypes types;                  // of its fields and events
-  Fields defaults;                   // of its fields
+  FieldTypes types;                  // the node of which an instance is a copy; null: defined in another file
+  Fields defaults;                   // values of its fields without given values
   std::shared_ptr<const Node> root;  // what stands in the place of an instance; null: it is in another file
 };
 
-// Those that are known at a place. Those that are declared in the body of another one end with it.
+// The prototypes known at a place, by nested scopes: those declared in the body of another prototype end with it.
 class Prototypes {
  public:
   void enter() { scopes_.emplace_back(); }
   void leave() { scopes_.pop_back(); }
   void declare(const std::string& name, std::shared_ptr<const Prototype> prototype) { scopes_.back()[name] = std::move(prototype); }
-  // The innermost of this name; null when there is none.
+  // The innermost one of this name; null if there is none.
   [[nodiscard]] std::shared_ptr<const Prototype> find(std::string_view name) const;
 
  private:
   std::vector<std::map<std::string, std::shared_ptr<const Prototype>, std::less<>>> scopes_{1};
 };
 
-// Finds out how high the tree below the node is, and whether it is open. Those of its fields and children must be known.
+// Sets `height` and `open` of the node. Those of its fields' nodes and children must already be set.
 void settle(Node& node);
 
-// The prototype's root in which values given to the instance, or else the defaults, are put where the body names its fields. Only what is
-// open is copied; every copy is taken from the budget. Null when that is used up.
+// The prototype's root with the values given to the instance, or else the defaults, inserted where the body refers to its fields. Only
+// open nodes are copied; every copy is subtracted from the budget. Null if that is exhausted.
 [[nodiscard]] std::shared_ptr<const Node> instance(const Prototype& prototype, const Fields& given, std::size_t& budget);
 
 // --- reading and walking
 
-// The nodes of the text under one root, or errors.
+// The nodes of the text under one root; null after errors.
 [[nodiscard]] std::shared_ptr<const Node> parse(std::string_view text, Errors& errors, Notes& notes);
 
-// Which of the materials a part, a face or a corner has.
+// Which of the materials a part, a face or a corner uses.
 enum class Binding : unsigned char { overall, per_part, per_part_indexed, per_face, per_face_indexed, per_vertex, per_vertex_indexed };
 
 struct State {
@@ -152,8 +152,8 @@ struct State {
   const Node* material = nullptr;     // null: the default one
   const Node* coordinates = nullptr;  // null: none
   const Node* texture = nullptr;      // null: none
-  const Node* colors = nullptr;       // of VRML 97: in the place of the material's diffuse colour; null: none
-  const Node* named = nullptr;        // of VRML 97: the last node with a name on the way here; null: none
+  const Node* colors = nullptr;       // VRML 97: replaces the material's diffuse colour; null: none
+  const Node* named = nullptr;        // VRML 97: the last named node on the path to here; null: none
   Binding binding = Binding::overall;
   bool ordered = false, clockwise = false, solid = false, creased = false;  // ShapeHints; creased: with an angle above 0
 };
@@ -165,21 +165,21 @@ struct State {
 void add_camera(Model& model, const Node& node, const State& state, Notes& notes);
 void add_light(Model& model, const Node& node, const State& state, Notes& notes);
 
-// --- what nodes mean to the walk (traverse.cpp)
+// --- the meaning of nodes for the walk (traverse.cpp)
 
-// Does the node change what follows it? The state is changed.
+// Does the node change the state for the nodes after it? If so, changes it.
 bool change(State& state, const Node& node);
-// The children that are walked: of a Switch the chosen one, of a LOD the finest.
+// The children to walk: the selected one of a Switch, the finest of a LOD.
 [[nodiscard]] std::vector<std::shared_ptr<const Node>> walked_children(const Node& node);
-// When a node is left: takes back what its children have changed, if it keeps that to itself.
+// Called when a node is left: undoes the changes of its children, if it confines them.
 void restore(State& state, const State& before, const Node& node);
 [[nodiscard]] inline bool is_camera(const Node& node) { return node.type.ends_with("Camera") || node.type == "Viewpoint"; }
-// What the geometry of a Shape finds.
+// The state to which the geometry of a Shape refers.
 [[nodiscard]] State state_of_shape(const Node& shape, const Node& geometry, const State& around);
 
 // --- shapes of VRML 97 that become faces (swept_faces.cpp)
 
-// As a face set has them.
+// The fields of a face set.
 struct Faces {
   Field points, index;
 };
@@ -188,17 +188,17 @@ struct Faces {
 
 // --- looks (looks.cpp)
 
-// The picture that a texture node gives to what follows it; null when it has none, or one that cannot be read, which is noted.
+// The picture of a texture node, for the shapes after it; null if it has none, or one that cannot be read, which is noted.
 [[nodiscard]] std::shared_ptr<const intake::Picture> picture_of(const Node& texture, const SideFile& side_file, Notes& notes);
 
-// Which material a part, a face or a corner has by the binding of its state, and what of it the model needs: the diffuse colour is the
-// reflectance, the emissive colour a radiance L, so that the exitance is pi L.
+// Determines the material of a part, a face or a corner by the binding of its state, and converts it for the model: the diffuse colour is
+// the reflectance; the emissive colour is a radiance L, so the exitance is pi L.
 class Looks {
  public:
-  // Among the materials of a state; those beyond the last begin again with the first.
+  // Indices of materials of a state; indices beyond the last one wrap around.
   using Numbers = std::vector<std::size_t>;
 
-  // A face of a face set: its number, how many corners the faces before it have, where its first one stands among all indices.
+  // A face of a face set: its number, the number of corners of the faces before it, the position of its first corner among all indices.
   struct FaceCorners {
     const Field* indices = nullptr;
     std::size_t face = 0, before = 0, first = 0, count = 0;
@@ -206,10 +206,10 @@ class Looks {
 
   Looks(Model& model, const SideFile& side_file, Notes& notes) : model_(model), side_file_(side_file), notes_(notes) {}
 
-  // The number in the model of the material with these numbers; of several the mean of their colours.
+  // Index in the model of the material with these numbers; several materials are averaged.
   std::uint32_t material(const State& state, Numbers numbers, bool two_sided = false);
 
-  // Those of a face. Corners of different materials blend into each other; a face has one colour here.
+  // The numbers for a face. Materials of its corners should be interpolated; here a face has one colour.
   [[nodiscard]] Numbers numbers(const Node& face_set, const State& state, const FaceCorners& of);
 
  private:

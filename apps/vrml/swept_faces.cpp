@@ -34,14 +34,14 @@ class FaceMaker {
   Faces faces_;
 };
 
-// A few numbers can ask for millions of points.
+// Is the number of points acceptable? A few numbers in a file can request millions of points.
 bool fits(double columns, double rows) { return columns * rows <= 2e6; }
 
-// What turns the cross-section, which lies in x and z, so that it stands across the spine at one of its points: the columns x, y, z of the
-// standard's spine-aligned cross-section plane (SCP).
+// Rotations of the cross-section, which lies in the xz plane, to be perpendicular to the spine at its points: the columns are x, y, z of
+// the standard's spine-aligned cross-section plane (SCP).
 using Planes = std::vector<glm::dmat3>;
 
-// The rotation that takes the y axis to this direction the short way.
+// The rotation by the smallest angle that takes the y axis to this direction.
 glm::dmat3 turned_from_y(const glm::dvec3& y) {
   const glm::dvec3 axis = glm::cross(glm::dvec3(0.0, 1.0, 0.0), y);
   const double sine = glm::length(axis);
@@ -49,7 +49,7 @@ glm::dmat3 turned_from_y(const glm::dvec3& y) {
   return y.y < 0.0 ? glm::dmat3({1.0, 0.0, 0.0}, {0.0, -1.0, 0.0}, {0.0, 0.0, -1.0}) : glm::dmat3(1.0);
 }
 
-// Of a spine whose neighbours are different points.
+// For a spine whose consecutive points are different.
 Planes planes_of_distinct(std::span<const glm::dvec3> spine) {
   const std::size_t n = spine.size();
   if (n < 2) { return Planes(n, glm::dmat3(1.0)); }
@@ -64,7 +64,7 @@ Planes planes_of_distinct(std::span<const glm::dvec3> spine) {
     y[i] = unit(after - before);
     if (y[i] == glm::dvec3(0.0)) { y[i] = ahead; }  // the spine turns back on itself
     const glm::dvec3 across = glm::cross(ahead, back);
-    if (glm::length(across) > 1e-9) { z[i] = glm::normalize(across); }  // else the point lies on a straight piece
+    if (glm::length(across) > 1e-9) { z[i] = glm::normalize(across); }  // otherwise the spine is straight at this point
   }
   const auto found = std::find_if(z.begin(), z.end(), [](const glm::dvec3& v) { return v != glm::dvec3(0.0); });
   Planes planes;
@@ -75,14 +75,14 @@ Planes planes_of_distinct(std::span<const glm::dvec3> spine) {
   std::fill(z.begin(), found, *found);
   for (std::size_t i = 0; i < n; ++i) {
     if (i > 0 && z[i] == glm::dvec3(0.0)) { z[i] = z[i - 1]; }
-    if (i > 0 && glm::dot(z[i], z[i - 1]) < 0.0) { z[i] = -z[i]; }  // no twist where the spine bends the other way
+    if (i > 0 && glm::dot(z[i], z[i - 1]) < 0.0) { z[i] = -z[i]; }  // avoids a twist where the curvature changes sign
     const glm::dvec3 x = unit(glm::cross(y[i], z[i]));
     planes.emplace_back(x, y[i], glm::cross(x, y[i]));
   }
   return planes;
 }
 
-// Points in one place have one plane.
+// Consecutive equal points share a plane.
 Planes planes_of(std::span<const glm::dvec3> spine) {
   std::vector<glm::dvec3> distinct;
   std::vector<std::size_t> number;
@@ -96,7 +96,7 @@ Planes planes_of(std::span<const glm::dvec3> spine) {
   return planes;
 }
 
-// The i-th value of so many numbers; the last one holds for those that are missing.
+// The i-th value, of `size` numbers; the last one is used beyond the end.
 template <std::size_t size>
 std::array<double, size> value(const Node& node, const char* field, std::size_t i, const std::array<double, size>& otherwise) {
   const Field* const found = node.find(field);
@@ -123,7 +123,7 @@ std::optional<Faces> elevation_grid(const Node& node) {
     }
   }
   for (std::size_t j = 0; j + 1 < nz; ++j) {
-    for (std::size_t i = 0; i + 1 < nx; ++i) {  // counter-clockwise from above
+    for (std::size_t i = 0; i + 1 < nx; ++i) {  // counter-clockwise seen from above
       const std::size_t at = j * nx + i;
       made.face(std::array{at, at + nx, at + nx + 1, at + 1});
     }
@@ -159,13 +159,13 @@ std::optional<Faces> extrusion(const Node& node) {
     if (glm::length(axis) > 0.0) { plane = plane * glm::dmat3(glm::rotate(glm::dmat4(1.0), turn[3], glm::normalize(axis))); }
     for (const glm::dvec2& p : section) { made.point(spine[i] + plane * glm::dvec3(p.x * scale[0], 0.0, p.y * scale[1])); }
   }
-  for (std::size_t i = 0; i + 1 < rows; ++i) {  // seen from outside when the section is counter-clockwise from the end of the spine
+  for (std::size_t i = 0; i + 1 < rows; ++i) {  // facing outwards if the section is counter-clockwise seen from the end of the spine
     for (std::size_t k = 0; k < (round ? n : n - 1); ++k) {
       const std::size_t a = i * n + k, b = i * n + (k + 1) % n;
       made.face(std::array{a, b, b + n, a + n});
     }
   }
-  if (n < 3 || spine.front() == spine.back()) { return made.take(); }  // the ends of a ring lie inside of it
+  if (n < 3 || spine.front() == spine.back()) { return made.take(); }  // the ends of a closed spine are inside
   std::vector<std::size_t> cap(n);
   for (std::size_t k = 0; k < n; ++k) { cap[k] = n - 1 - k; }
   if (!node.is_false("beginCap")) { made.face(cap); }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The text of VRML as tokens: words, strings and marks. Blanks and commas separate them; a comment goes from '#' to the end of its line.
-// VRML 97 has fewer marks, because the names of its nodes may have parentheses.
+// Divides VRML text into tokens: words, strings and marks. Blanks and commas separate them; a comment extends from '#' to the end of its
+// line. VRML 97 has fewer marks, because its names may contain parentheses.
 
 #include <algorithm>
 #include <charconv>
@@ -22,7 +22,7 @@ class Tokens {
  public:
   Tokens(std::string_view text, Version version) : text_(text), marks_(version == Version::v97 ? "{}[]" : "{}[]()|") { next(); }
 
-  // The present one: a word, a mark, or a string with its quotes; empty at the end.
+  // The present token: a word, a mark, or a string with its quotes; empty at the end.
   [[nodiscard]] std::string_view token() const { return token_; }
   [[nodiscard]] Place place() const { return at_; }
   [[nodiscard]] bool is(std::string_view text) const { return token_ == text; }
@@ -74,7 +74,7 @@ class Tokens {
   Place at_;
 };
 
-// Hexadecimal, too.
+// Also accepts hexadecimal numbers.
 inline std::optional<double> number_of(std::string_view word) {
   if (word.starts_with("0x") || word.starts_with("0X")) {
     std::uint32_t value = 0;
@@ -84,7 +84,7 @@ inline std::optional<double> number_of(std::string_view word) {
   return mesh_file::to_number(word);
 }
 
-// The text of a string, or of a word.
+// The content of a string token, or a word unchanged.
 inline std::string unquoted(std::string_view token) {
   if (token.empty() || token[0] != '"') { return std::string(token); }
   token.remove_prefix(1);

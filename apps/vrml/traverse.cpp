@@ -18,20 +18,20 @@ glm::dmat4 turned(const glm::dvec4& rotation) {
 
 glm::dmat4 moved(const glm::dvec3& by) { return glm::translate(glm::dmat4(1.0), by); }
 
-// What the node does to what follows it; nothing when it is no transform.
+// The transform by which the node changes the state; nothing if it is not a transform node.
 std::optional<glm::dmat4> transform_of(const Node& node) {
   const glm::dvec3 zero(0.0), one(1.0);
   if (node.type == "Translation") { return moved(node.vector("translation", zero)); }
   if (node.type == "Rotation") { return turned(node.rotation("rotation")); }
   if (node.type == "Scale") { return glm::scale(glm::dmat4(1.0), node.vector("scaleFactor", one)); }
-  if (node.type == "MatrixTransform") {  // rows of a matrix that stands behind a row vector: our columns
+  if (node.type == "MatrixTransform") {  // the rows of a matrix for row vectors are our columns
     const Field* const matrix = node.find("matrix");
     glm::dmat4 result(1.0);
     if (matrix == nullptr || matrix->numbers.size() < 16) { return result; }
     for (int i = 0; i < 16; ++i) { result[i / 4][i % 4] = matrix->numbers[static_cast<std::size_t>(i)]; }
     return result;
   }
-  if (node.type == "Transform") {  // VRML 97 has another name for its scale
+  if (node.type == "Transform") {  // VRML 97 has another name for the scale
     const glm::dmat4 tilt = turned(node.rotation("scaleOrientation"));
     const glm::dvec3 centre = node.vector("center", zero);
     return moved(node.vector("translation", zero)) * moved(centre) * turned(node.rotation("rotation")) * tilt *
@@ -85,7 +85,7 @@ std::vector<std::shared_ptr<const Node>> walked_children(const Node& node) {
   }
   if (node.type == "Switch") {
     const double which = node.number(node.version == Version::v97 ? "whichChoice" : "whichChild", -1.0);
-    // Views to choose from: a viewer offers all of them.
+    // If all children are cameras, all are kept, because a viewer offers all of them.
     const bool views = std::all_of(all.begin(), all.end(), [](const auto& child) { return is_camera(*child); });
     if ((which == -3.0 && node.version == Version::v1) || views) { return all; }
     const bool exists = which >= 0.0 && which < static_cast<double>(all.size());

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Values of fields that are no nodes: tokens to numbers, strings and words, with the first error of the file.
+// Parses values of fields, except nodes: converts tokens to numbers, strings and words, and records the first error of the file.
 
 #include <optional>
 #include <string>
@@ -31,7 +31,7 @@ class ValueReader {
     return taken;
   }
 
-  // From behind a mark to behind that which closes it; on_name is told the names that nodes in between get by DEF.
+  // Skips from an opening bracket to the closing one, inclusive; calls on_name with the names defined by DEF in between.
   template <class OnName>
   void skip_to(std::string_view close, Place opened, const OnName& on_name) {
     const std::string_view open = close == "}" ? "{" : close == "]" ? "[" : "(";
@@ -48,7 +48,7 @@ class ValueReader {
     }
   }
 
-  // --- errors. What is behind the first one is not understood, so nothing is said about it.
+  // --- errors: only the first one is reported, because what follows it cannot be interpreted
   [[nodiscard]] bool ok() const { return errors_.count() == 0; }
   void fail(Place place, std::string sentence) {
     if (ok()) { errors_.add(place, std::move(sentence)); }
@@ -60,7 +60,7 @@ class ValueReader {
 
   void value(const FieldType& type, std::string_view field, Field& out) {
     if (tokens_.is("~")) { tokens_.next(); }
-    if (type.kind == FieldType::Kind::image) {  // width, height, components, then a number for each pixel
+    if (type.kind == FieldType::Kind::image) {  // width, height, components, then a number per pixel
       for (int i = 0; i < 3 && ok(); ++i) { number(field, out); }
       const double pixels = ok() ? out.numbers[0] * out.numbers[1] : 0.0;
       for (double i = 0.0; i < pixels && ok(); i += 1.0) { number(field, out); }

@@ -27,7 +27,7 @@ void add_camera(Model& model, const Node& node, const State& state, Notes& notes
   const bool parallel = node.type == "OrthographicCamera";
   const double half_height = parallel ? 0.5 * node.number("height", 2.0) / node.number("focalDistance", 5.0)
                                       : std::tan(0.5 * node.number(v97 ? "fieldOfView" : "heightAngle", 0.785398));
-  camera.field_of_view = 2.0 * std::atan(4.0 / 3.0 * half_height) * 180.0 / std::numbers::pi;  // of pictures of 4 : 3
+  camera.field_of_view = 2.0 * std::atan(4.0 / 3.0 * half_height) * 180.0 / std::numbers::pi;  // for pictures of 4 : 3
   if (!usable(camera)) { return notes.add("cameras that see nothing are passed over", at_line_of(node)); }
   if (parallel) { notes.add("cameras without perspective get one that shows as much at their focal distance", at_line_of(node)); }
   model.cameras.push_back(std::move(camera));
