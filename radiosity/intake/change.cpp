@@ -49,6 +49,8 @@ inline constexpr std::array<Wording, static_cast<std::size_t>(ChangeKind::merged
      "# lamps lay on surfaces, or close before them, and looked into them: turned"},
     {"1 lamp shines on both sides, on one of them into the gap before a surface: that side is left out",
      "# lamps shine on both sides, on one of them into the gap before a surface: that side is left out"},
+    {"1 vertex of a flat surface lay beside a larger one, by @: moved onto it",
+     "# vertices of flat surfaces lay beside larger ones, by up to @: moved onto them"},
     {"1 polygon has light on both sides, as a wall between rooms: it reflects on both",
      "# polygons have light on both sides, as walls between rooms: they reflect on both"},
     {"1 surface has polygons of both orientations: it reflects on both sides",

@@ -31,6 +31,7 @@ enum class ChangeKind : unsigned char {
   lamp_laid,    // vertices of lamps beside a wall: moved onto it; size: the largest distance
   lamp_turned,  // lamps on a wall, or close in front of it, and facing it: turned over
   lamp_halved,  // lamps that emit on both sides, one of them close in front of a surface: this side is left out
+  decal_laid,   // vertices of flat surfaces beside a larger one: moved onto it; size: the largest distance
   dividing,     // polygons with light on both sides, such as walls between rooms: made to reflect on both
   both_sides,   // surfaces of mixed orientation: made to reflect on both sides
   open,         // open surfaces of which it is not known which side is seen: made to reflect on both sides

@@ -19,6 +19,7 @@
 //                than two faces meet, the surface is cut
 //     merge      coplanar neighbours of one material become one face (fewer input faces)       merge.hpp
 //     lamps      lamps that lie flush in a wall shine away from it                             lamps.hpp
+//     decals     flat surfaces that lie on a larger one cover it                               decals.hpp
 //     objects    closed shells become solids or rooms, all else surfaces with one or two       objects.hpp, shells.hpp,
 //                sides                                                                         open_surfaces.hpp
 //

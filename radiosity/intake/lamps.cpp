@@ -8,7 +8,6 @@
 #include <map>
 #include <optional>
 #include <span>
-#include <tuple>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -16,12 +15,13 @@
 
 #include <brep/polygon.hpp>
 
-#include <raycast/box.hpp>
 #include <raycast/bvh.hpp>
 #include <raycast/inline.hpp>
 #include <raycast/line_query.hpp>
 #include <raycast/planar.hpp>
 #include <raycast/ray.hpp>
+
+#include <radiosity/intake/beside.hpp>
 
 namespace radiosity::intake {
 namespace detail {
@@ -44,36 +44,6 @@ inline std::vector<bool> open_lamps(const Working& mesh, const Topology& topolog
   std::vector<bool> lamp(mesh.faces.size(), false);
   for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) { lamp[f] = open[topology.component[f]] && shines(mesh.faces[f], materials); }
   return lamp;
-}
-
-// A face parallel to a lamp, on which or near which the lamp's centre lies, within a thousandth of the lamp's size.
-struct Wall {
-  std::uint32_t face = 0;
-  raycast::Plane plane;
-  double height = 0.0;    // of the lamp's centre above the face
-  bool opposite = false;  // do they have opposite orientations?
-};
-
-// The walls at a lamp, except those in front of which it hangs free, facing away from them.
-inline std::vector<Wall> walls_beside(Working& mesh, const Topology& topology, const raycast::Bvh& bvh, std::uint32_t lamp) {
-  const double size = std::sqrt(brep::area(mesh.outline(mesh.faces[lamp]))), reach = std::max(4.0 * mesh.tolerance, tol_flush * size);
-  const glm::dvec3 normal = raycast::plane_of(mesh.outline(mesh.faces[lamp])).normal,
-                   middle = brep::centroid(mesh.outline(mesh.faces[lamp]));
-  const raycast::Segment through{middle - reach * normal, 2.0 * reach * normal};
-  std::vector<Wall> walls;
-  static_cast<void>(raycast::any_along(bvh, raycast::SlabTest(through), 0.0, 1.0, [&](std::uint32_t face) {
-    if (topology.component[face] == topology.component[lamp]) { return false; }
-    const raycast::Plane plane = raycast::plane_of(mesh.outline(mesh.faces[face]));
-    const auto height = [&](const glm::dvec3& p) { return glm::dot(p - plane.point, plane.normal); };
-    const std::vector<std::uint32_t>& corners = mesh.faces[lamp].corners;
-    const bool parallel =
-        std::all_of(corners.begin(), corners.end(), [&](std::uint32_t v) { return std::abs(height(mesh.positions[v])) <= reach; });
-    const Wall wall{face, plane, height(middle), glm::dot(plane.normal, normal) < 0.0};
-    if (!parallel || (!wall.opposite && wall.height > 4.0 * mesh.tolerance)) { return false; }
-    if (raycast::RayFrame(through).winding(mesh.outline(mesh.faces[face])) != 0) { walls.push_back(wall); }
-    return false;
-  }));
-  return walls;
 }
 
 // Does anything that the lamp could light lie on the side to which `normal` points, more than `height` away?
@@ -117,26 +87,15 @@ HALFLIGHT_INLINE std::vector<FlushFace> lay_lamps(Working& mesh, const Topology&
   const std::vector<bool> lamp = detail::open_lamps(mesh, topology, materials);
   std::vector<FlushFace> found;
   if (std::none_of(lamp.begin(), lamp.end(), [](bool is) { return is; })) { return found; }
-  std::vector<raycast::Box> boxes;
-  std::vector<std::uint32_t> component(mesh.positions.size(), none);
-  std::vector<bool> shared(mesh.positions.size(), false);  // does the vertex belong to several components?
-  for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) {
-    boxes.emplace_back();
-    for (const std::uint32_t v : mesh.faces[f].corners) {
-      boxes.back().extend(mesh.positions[v]);
-      shared[v] = shared[v] || (component[v] != none && component[v] != topology.component[f]);
-      component[v] = topology.component[f];
-    }
-    boxes.back() = boxes.back().grown(mesh.tolerance);
-  }
-  const raycast::Bvh bvh(boxes);
+  const FacesBeside beside(mesh, topology);
   for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) {
     if (!lamp[f]) { continue; }
-    std::vector<detail::Wall> walls = detail::walls_beside(mesh, topology, bvh, f);
-    std::erase_if(walls, [&](const detail::Wall& wall) { return lamp[wall.face]; });
-    if (walls.empty()) {
+    const double size = std::sqrt(brep::area(mesh.outline(mesh.faces[f])));
+    std::vector<Contact> contacts = beside.contacts(f, std::max(4.0 * mesh.tolerance, detail::tol_flush * size));
+    std::erase_if(contacts, [&](const Contact& contact) { return lamp[contact.face]; });
+    if (contacts.empty()) {
       for (const double side : {1.0, -1.0}) {
-        const auto near = detail::face_before(mesh, bvh, lamp, f, side);
+        const auto near = detail::face_before(mesh, beside.bvh(), lamp, f, side);
         if (!near) { continue; }
         const glm::dvec3 normal = brep::vector_area(mesh.outline(mesh.faces[f]));
         const bool opposite = glm::dot(normal, brep::vector_area(mesh.outline(mesh.faces[*near]))) < 0.0;
@@ -144,19 +103,10 @@ HALFLIGHT_INLINE std::vector<FlushFace> lay_lamps(Working& mesh, const Topology&
       }
       continue;
     }
-    std::sort(walls.begin(), walls.end(), [](const detail::Wall& a, const detail::Wall& b) {
-      return std::tuple(std::abs(a.height), a.face) < std::tuple(std::abs(b.height), b.face);
-    });
-    const raycast::Plane nearest = walls[0].plane;
-    const double same = std::abs(walls[0].height) + 4.0 * mesh.tolerance;
-    std::erase_if(walls, [&](const detail::Wall& wall) { return std::abs(wall.height) > same; });
-    for (const detail::Wall& wall : walls) { found.push_back({f, wall.face, wall.opposite}); }
-    for (const std::uint32_t v : mesh.faces[f].corners) {
-      const double height = glm::dot(mesh.positions[v] - nearest.point, nearest.normal);
-      if (shared[v] || height == 0.0) { continue; }
-      mesh.positions[v] -= height * nearest.normal;
-      if (std::abs(height) > 1e-3 * mesh.tolerance) { mesh.changed(ChangeKind::lamp_laid, mesh.faces[f].polygon, std::abs(height)); }
-    }
+    const double same = std::abs(contacts[0].height) + 4.0 * mesh.tolerance;
+    std::erase_if(contacts, [&](const Contact& contact) { return std::abs(contact.height) > same; });
+    for (const Contact& contact : contacts) { found.push_back({f, contact.face, contact.opposite}); }
+    beside.lay(f, contacts[0], ChangeKind::lamp_laid);
   }
   return found;
 }
@@ -213,7 +163,7 @@ HALFLIGHT_INLINE void turn_lamps(Working& mesh, const Topology& topology, std::s
     }
     if (!front && !back) { continue; }
     const bool turn = front && !back;
-    shells.lay_lamp(component, turn, !(front && back));
+    shells.lay(component, turn, !(front && back));
     if (turn && lamp.one_sided) { mesh.changed(ChangeKind::lamp_turned, lamp.polygon); }
   }
 }

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <numeric>
 #include <optional>
 #include <span>
 #include <string>
@@ -24,6 +25,7 @@
 #include <raycast/objects/polygon.hpp>
 
 #include <radiosity/intake/backs.hpp>
+#include <radiosity/intake/decals.hpp>
 #include <radiosity/intake/lamps.hpp>
 #include <radiosity/intake/open_surfaces.hpp>
 #include <radiosity/intake/shells.hpp>
@@ -34,7 +36,7 @@ namespace detail {
 class ObjectMaker {
  public:
   ObjectMaker(Working& mesh, const Topology& topology, const PolygonView& input, std::span<const Material> materials,
-              const IntakeOptions& options, std::span<const FlushFace> flush)
+              const IntakeOptions& options, std::span<const FlushFace> flush, std::span<const DecalFace> decals)
       : mesh_(mesh), topology_(topology), input_(input), options_(options), shells_(mesh, topology, materials, options) {
     local_.assign(topology.vertices, none);
     face_of_.resize(topology.mate.size());
@@ -45,6 +47,14 @@ class ObjectMaker {
     if (options.sides_unknown || options.open_sides_unknown) { show_both_sides(mesh, topology, options.sides_unknown, shells_); }
     const std::vector<bool> two_sided = faces_with_backs();
     turn_lamps(mesh, topology, materials, flush, two_sided, shells_);
+    mark_decals(mesh, topology, decals, two_sided, shells_);
+    for (const Component& component : shells_.components()) {
+      if (!component.both_sides || component.one_sided) { continue; }
+      const auto polygon = [&](std::uint32_t f) { return mesh.faces[f].polygon; };
+      const auto first =
+          std::min_element(component.faces.begin(), component.faces.end(), [&](auto a, auto b) { return polygon(a) < polygon(b); });
+      mesh.changed(ChangeKind::open, polygon(*first));
+    }
   }
 
   MadeObjects run() {
@@ -55,7 +65,11 @@ class ObjectMaker {
       add_surface(groups[g].front, false);
       add_surface(groups[g].back, true);
     }
-    for (std::uint32_t g = 0; g < groups.size(); ++g) {  // after the surfaces on which they lie, so that they cover these
+    // After the surfaces on which they lie, so that they cover these; and the smaller after the larger, as paper on a rug.
+    std::vector<std::uint32_t> order(groups.size());
+    std::iota(order.begin(), order.end(), 0u);
+    std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return groups[a].largest_flush > groups[b].largest_flush; });
+    for (const std::uint32_t g : order) {
       group_ = g;
       add_surface(groups[g].flush_front, false);
       add_surface(groups[g].flush_back, true);
@@ -68,6 +82,7 @@ class ObjectMaker {
   struct Group {
     std::vector<const Component*> closed;
     std::vector<std::uint32_t> front, back, flush_front, flush_back;
+    double largest_flush = 0.0;  // area of a component
   };
 
   [[nodiscard]] std::vector<Group> sort_by_group() {
@@ -81,7 +96,10 @@ class ObjectMaker {
         continue;
       }
       bool mixed = false;
+      double area = 0.0;
+      for (const std::uint32_t f : component.faces) { area += component.flush ? brep::area(mesh_.outline(mesh_.faces[f])) : 0.0; }
       for (const std::uint32_t f : component.faces) {
+        groups[mesh_.faces[f].group].largest_flush = std::max(groups[mesh_.faces[f].group].largest_flush, area);
         Group& group = groups[mesh_.faces[f].group];
         (component.flush ? group.flush_front : group.front).push_back(f);
         if (component.one_sided) {
@@ -233,8 +251,10 @@ class ObjectMaker {
 
 HALFLIGHT_INLINE MadeObjects make_objects(Working& mesh, const Topology& topology, const PolygonView& input,
                                           std::span<const Material> materials, const IntakeOptions& options) {
-  const std::vector<FlushFace> flush = lay_lamps(mesh, topology, materials);  // before shells are measured, because it moves vertices
-  return detail::ObjectMaker(mesh, topology, input, materials, options, flush).run();
+  // Before shells are measured, because these move vertices.
+  const std::vector<FlushFace> flush = lay_lamps(mesh, topology, materials);
+  const std::vector<DecalFace> decals = lay_decals(mesh, topology, materials);
+  return detail::ObjectMaker(mesh, topology, input, materials, options, flush, decals).run();
 }
 
 HALFLIGHT_INLINE PolygonParts parts_of(const Working& mesh, std::span<const SheetOrigin> sheets, std::size_t polygons) {

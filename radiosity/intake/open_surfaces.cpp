@@ -121,9 +121,7 @@ HALFLIGHT_INLINE void show_both_sides(Working& mesh, const Topology& topology, b
     mesh.changed(ChangeKind::inside_out, open.first[0]);
   }
   for (std::uint32_t c = 0; c < open.area.size(); ++c) {
-    if (!is_open(c) || shells.shines(shells.components()[c])) { continue; }
-    shells.show_both_sides(c);
-    mesh.changed(ChangeKind::open, open.first[c]);
+    if (is_open(c) && !shells.shines(shells.components()[c])) { shells.show_both_sides(c); }
   }
 }
 

@@ -216,7 +216,7 @@ HALFLIGHT_INLINE void Shells::part_groups() {
   }
 }
 
-HALFLIGHT_INLINE void Shells::lay_lamp(std::uint32_t component, bool turn, bool one_sided) {
+HALFLIGHT_INLINE void Shells::lay(std::uint32_t component, bool turn, bool one_sided) {
   components_[component].flush = true;
   components_[component].one_sided = one_sided;
   turned_.resize(components_.size());

@@ -32,7 +32,7 @@ struct Component {
   bool several = false;                 // do its faces belong to several groups?
   bool one_sided = false;               // of a surface: its back is not visible, because it encloses or lies on something
   bool both_sides = false;              // of a surface: both sides are visible (open_surfaces.hpp)
-  bool flush = false;                   // a lamp that lies on something (lamps.hpp)
+  bool flush = false;                   // it lies on something (lamps.hpp, decals.hpp)
   std::vector<std::uint32_t> cavities;  // of a solid: the components that are its cavities
 };
 
@@ -45,9 +45,9 @@ class Shells {
 
   [[nodiscard]] std::span<const Component> components() const { return components_; }
   [[nodiscard]] bool shines(const Component& shell) const;
-  // Marks the component as a lamp that lies on a surface. `turn`: turns it away from that surface. `one_sided`: its side
-  // towards that surface is not visible.
-  void lay_lamp(std::uint32_t component, bool turn, bool one_sided);
+  // Marks the component as one that lies on a surface. `turn`: does it show the back of its faces? `one_sided`: its side towards that
+  // surface is not visible.
+  void lay(std::uint32_t component, bool turn, bool one_sided = true);
   void turn(std::uint32_t component);
   // Makes only the front of a surface visible, or only its back, which then becomes its front.
   void show_one_side(std::uint32_t component, bool back);
