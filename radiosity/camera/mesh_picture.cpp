@@ -11,6 +11,7 @@
 #include <glm/geometric.hpp>
 
 #include <raycast/inline.hpp>
+#include <raycast/tolerances.hpp>
 
 #include <radiosity/scene/material.hpp>
 
@@ -19,7 +20,8 @@ namespace raster {
 
 inline constexpr std::int64_t snap = 4096;  // steps between two sample points
 inline constexpr double guard = 2.0;        // the side planes are this many half-widths from the middle of the view
-inline constexpr double near_part = 1e-6;   // distance of the near plane, relative to the farthest vertex
+// Distance of the near plane, relative to the nearest vertex ahead, and at least relative to the farthest one: its rounding.
+inline constexpr double near_part = 1e-6, least_near_part = 1e-12;
 
 using Polygon = std::vector<glm::dvec3>;
 
@@ -78,13 +80,13 @@ struct Drawing {
 
 class Projector {
  public:
-  Projector(const View& view, double farthest, std::int64_t samples)
+  Projector(const View& view, double near, std::int64_t samples)
       : scale_(0.5 * static_cast<double>(view.size.width * samples * snap) / view.half_width),
         middle_x_(0.5 * static_cast<double>(view.size.width * samples * snap)),
         middle_y_(0.5 * static_cast<double>(view.size.height * samples * snap)) {
     const double w = guard * view.half_width;
     const double h = guard * view.half_height();
-    planes_ = {ClipPlane{{0.0, 0.0, 1.0}, near_part * farthest}, ClipPlane{{1.0, 0.0, w}, 0.0}, ClipPlane{{-1.0, 0.0, w}, 0.0},
+    planes_ = {ClipPlane{{0.0, 0.0, 1.0}, near}, ClipPlane{{1.0, 0.0, w}, 0.0}, ClipPlane{{-1.0, 0.0, w}, 0.0},
                ClipPlane{{0.0, 1.0, h}, 0.0}, ClipPlane{{0.0, -1.0, h}, 0.0}};
   }
 
@@ -126,15 +128,16 @@ HALFLIGHT_INLINE Triangle shade(const std::array<glm::dvec3, 3>& p, const glm::d
 
 HALFLIGHT_INLINE Drawing project(const Mesh& mesh, const View& view, std::int64_t samples) {
   std::vector<glm::dvec3> points;
-  double farthest = 0.0;
+  double nearest = raycast::infinity, farthest = 0.0;
   points.reserve(mesh.positions.size());
   for (const glm::dvec3& position : mesh.positions) {
     points.push_back(view.to_view(position));
     farthest = std::max(farthest, points.back().z);
+    if (points.back().z > 0.0) { nearest = std::min(nearest, points.back().z); }
   }
   Drawing drawing;
   if (!(farthest > 0.0)) { return drawing; }
-  Projector projector(view, farthest, samples);
+  Projector projector(view, std::max(near_part * nearest, least_near_part * farthest), samples);
   for (const MeshFace& face : mesh.faces) {
     for (std::uint32_t k = 1; k + 1 < face.corner_count; ++k) {
       const std::array<const MeshCorner*, 3> corner = {&mesh.corners[face.first_corner], &mesh.corners[face.first_corner + k],

@@ -7,13 +7,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <numeric>
 #include <span>
 #include <utility>
 #include <vector>
 
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
+#include <glm/vector_relational.hpp>
 
 #include <brep/brep.hpp>
 #include <brep/builder_input.hpp>
@@ -79,25 +79,6 @@ inline constexpr std::size_t most_fine = 4;
   return in_front > 0.5 * total;
 }
 
-// Does no corner of a closed body lie more than `tolerance` (a length) in front of one of its facets? False for bodies of more than
-// `most` facets, which are not checked.
-[[nodiscard]] HALFLIGHT_INLINE bool convex_within(const Facets& facets, double tolerance) {
-  constexpr std::size_t most = 1000;
-  if (facets.facets.size() > most) { return false; }
-  std::vector<glm::dvec3> corners;
-  for (const Facets::Facet& f : facets.facets) { corners.insert(corners.end(), f.contour.begin(), f.contour.end()); }
-  const auto before = [](const glm::dvec3& a, const glm::dvec3& b) { return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z; };
-  std::sort(corners.begin(), corners.end(), before);
-  corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
-  return std::all_of(facets.facets.begin(), facets.facets.end(), [&](const Facets::Facet& f) {
-    return std::all_of(corners.begin(), corners.end(), [&](const glm::dvec3& p) { return f.height(p) <= tolerance; });
-  });
-}
-
-[[nodiscard]] HALFLIGHT_INLINE double area_of(const Facets& facets) {
-  return std::accumulate(facets.facets.begin(), facets.facets.end(), 0.0, [](double sum, const Facets::Facet& f) { return sum + f.area; });
-}
-
 }  // namespace detail
 
 HALFLIGHT_INLINE DirectLight::Lamp DirectLight::make_lamp(const raycast::Scene& objects, const std::vector<Surface>& surfaces,
@@ -132,7 +113,7 @@ HALFLIGHT_INLINE DirectLight::Lamp DirectLight::make_lamp(const raycast::Scene& 
       flat && std::all_of(lamp.facets.facets.begin(), lamp.facets.facets.end(), [&](const Facets::Facet& f) {
         return glm::dot(f.normal, first.normal) > 1.0 - 1e-12 && (!several || std::abs(first.height(f.contour[0])) < detail::least_slack);
       });
-  lamp.correction = lamp.area / detail::area_of(lamp.facets);
+  lamp.correction = lamp.area / area_of(lamp.facets);
   lamp.centre = box.centre();
   for (const Facets::Facet& facet : lamp.facets.facets) {
     for (const glm::dvec3& p : facet.contour) { lamp.radius = std::max(lamp.radius, glm::length(p - lamp.centre)); }
@@ -164,7 +145,6 @@ HALFLIGHT_INLINE void DirectLight::take_samples(Lamp& lamp, bool fine, std::uint
 HALFLIGHT_INLINE DirectLight::DirectLight(const raycast::Scene& objects, const std::vector<Surface>& surfaces,
                                           const std::vector<Color>& emission, const LampLimits& limits)
     : objects_{&objects}, true_objects_{&objects}, lamp_of_(emission.size(), 0xffffffff), bodies_(objects.size()) {
-  for (std::uint32_t o = 0; o < objects.size(); ++o) { slack_ = std::max(slack_, 2.0 * objects.object(o).slack()); }
   std::vector<Candidate> candidates;
   double total = 0.0;
   raycast::Box dark;  // bounds of the surfaces that do not emit
@@ -184,7 +164,14 @@ HALFLIGHT_INLINE DirectLight::DirectLight(const raycast::Scene& objects, const s
       if (!is_black(e) && area[sheet] > 0.0) { candidates.push_back({{{s, {sheet}}}, e, brightest(e), area[sheet]}); }
     }
   }
-  if (!dark.empty()) { off_surface_ *= std::min(1.0, dark.diameter()); }
+  const double size = dark.empty() ? 1.0 : std::min(1.0, dark.diameter());
+  off_surface_ *= size;
+  slack_ = std::max(detail::rounding_slack, detail::least_slack * size);
+  for (std::uint32_t o = 0; o < objects.size(); ++o) {
+    const raycast::Box box = objects.object(o).bounds();
+    const bool apart = !dark.empty() && (glm::any(glm::greaterThan(box.lo, dark.hi)) || glm::any(glm::lessThan(box.hi, dark.lo)));  // a sun
+    if (!apart) { slack_ = std::max(slack_, 2.0 * objects.object(o).slack()); }
+  }
   if (limits.bodies && candidates.size() > limits.most) { candidates = join_alike(candidates, objects, limits.most); }
   std::stable_sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) { return a.strength > b.strength; });
   std::vector<bool> is_fine;  // by lamp
@@ -324,7 +311,7 @@ HALFLIGHT_INLINE void DirectLight::take_bodies(const std::vector<Surface>& surfa
       // Corners in files are mostly rounded, so round bodies are not quite convex; treating their many faces one by one would cost far
       // more.
       if (body.closed && !body.convex && !object.inside() && !body.facets.empty()) {
-        body.convex = detail::convex_within(body.facets, detail::stand_in_tolerance * object.bounds().diameter());
+        body.convex = convex_within(body.facets, detail::stand_in_tolerance * object.bounds().diameter());
       }
     } else if (body.convex) {
       body.facets = facets_of(object, outline_tolerance(object, detail::facet_tolerance));

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <map>
 #include <numbers>
+#include <numeric>
 #include <span>
 #include <utility>
 #include <vector>
@@ -93,6 +94,23 @@ HALFLIGHT_INLINE Facets facets_of(const Surface& surface, std::uint32_t sheet) {
 }
 HALFLIGHT_INLINE Facets facets_of(const Surface& surface, std::span<const std::uint32_t> sheets) {
   return detail::facets_of(surface, [&](std::uint32_t s) { return std::binary_search(sheets.begin(), sheets.end(), s); });
+}
+
+HALFLIGHT_INLINE double area_of(const Facets& facets) {
+  return std::accumulate(facets.facets.begin(), facets.facets.end(), 0.0, [](double sum, const Facets::Facet& f) { return sum + f.area; });
+}
+
+HALFLIGHT_INLINE bool convex_within(const Facets& facets, double tolerance) {
+  constexpr std::size_t most = 1000;
+  if (facets.facets.size() > most) { return false; }
+  std::vector<glm::dvec3> corners;
+  for (const Facets::Facet& f : facets.facets) { corners.insert(corners.end(), f.contour.begin(), f.contour.end()); }
+  const auto before = [](const glm::dvec3& a, const glm::dvec3& b) { return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z; };
+  std::sort(corners.begin(), corners.end(), before);
+  corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+  return std::all_of(facets.facets.begin(), facets.facets.end(), [&](const Facets::Facet& f) {
+    return std::all_of(corners.begin(), corners.end(), [&](const glm::dvec3& p) { return f.height(p) <= tolerance; });
+  });
 }
 
 HALFLIGHT_INLINE void append(Facets& facets, const Facets& more) {

@@ -108,20 +108,24 @@ HALFLIGHT_INLINE double roundness(const Facets& facets, const Facets::Part& part
   constexpr double tolerance = 0.002;
   constexpr int directions = 24;  // uniformly distributed on a Fibonacci spiral
   const double turn = std::numbers::pi * (3.0 - std::sqrt(5.0));
+  struct Seen {
+    glm::dvec3 out, light;  // direction, and the light there times the squared distance
+  };
   std::vector<char> facing;
-  double r2 = 0.0;
+  std::vector<Seen> all;
+  double mean = 0.0;  // over the directions it errs less than any of them (Cauchy 1832)
   for (int k = 0; k < directions; ++k) {
     const double z = 1.0 - (2.0 * k + 1.0) / directions, across = std::sqrt(1.0 - z * z);
     const glm::dvec3 out{across * std::cos(turn * k), across * std::sin(turn * k), z};
     for (const double radii : {100.0, 1.1}) {
       const double distance = radii * part.radius;
       const glm::dvec3 x = part.centre + distance * out;
-      const glm::dvec3 light = PossibleOutline{facets, part, x, 0.0}.light_vector(x, 0.0, facing) * (distance * distance);
-      if (r2 == 0.0) { r2 = glm::length(light); }
-      if (!(glm::length(light + r2 * out) <= tolerance * r2)) { return 0.0; }
+      all.push_back({out, PossibleOutline{facets, part, x, 0.0}.light_vector(x, 0.0, facing) * (distance * distance)});
+      mean += glm::length(all.back().light) / (2.0 * directions);
     }
   }
-  return r2;
+  const auto differs = [&](const Seen& seen) { return !(glm::length(seen.light + mean * seen.out) <= tolerance * mean); };
+  return std::any_of(all.begin(), all.end(), differs) ? 0.0 : mean;
 }
 
 }  // namespace radiosity

@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <map>
 #include <numbers>
-#include <numeric>
 #include <span>
 #include <utility>
 
@@ -59,15 +58,12 @@ namespace detail {
 // The share of a sheet's area that its facets of this tolerance have.
 [[nodiscard]] HALFLIGHT_INLINE double area_share(const Facets& facets, const raycast::PlacedObject& object, double tolerance,
                                                  std::uint32_t sheet) {
-  const auto area = [](const Facets& all) {
-    return std::accumulate(all.facets.begin(), all.facets.end(), 0.0, [](double sum, const Facets::Facet& f) { return sum + f.area; });
-  };
-  const double flat = area(facets);
+  const double flat = area_of(facets);
   double curved = 0.0;
   for (const Facets::Facet& facet : facets.facets) { curved += curved_area(object, sheet, facet.contour); }
   constexpr double rounding = 1e-9, finer = 1.0 / 16.0;
   if (curved > flat * (1.0 + rounding)) { return flat / curved; }
-  return flat / area(radiosity::facets_of(object, finer * tolerance, sheet));  // a flat sheet: chords cut off parts along its border
+  return flat / area_of(radiosity::facets_of(object, finer * tolerance, sheet));  // a flat sheet: chords cut off parts along its border
 }
 
 }  // namespace detail
@@ -77,15 +73,17 @@ HALFLIGHT_INLINE Facets facets_for_outline(const raycast::PlacedObject& object, 
   constexpr std::size_t most_facets = 4096;
   double tolerance = outline_tolerance(object, part);
   Facets facets = facets_of(object, tolerance, sheet);
-  for (;;) {
+  constexpr int most_steps = 32;  // of halving: what is not there then never will be, at the cusp of a blade, say
+  for (int step = 0; step < most_steps; ++step) {
     const double share = detail::area_share(facets, object, tolerance, sheet);
-    if (share >= least_share) { return facets; }
+    if (share >= least_share) { break; }
     constexpr double least_step = 0.5, most_step = 0.8;  // what chords lose is as much as the tolerance, but for their whole numbers
     tolerance *= std::clamp((1.0 - least_share) / (1.0 - share), least_step, most_step);
     Facets finer = facets_of(object, tolerance, sheet);
-    if (finer.facets.size() > most_facets) { return facets; }
+    if (finer.facets.size() > most_facets) { break; }
     facets = std::move(finer);
   }
+  return facets;
 }
 
 }  // namespace radiosity

@@ -174,7 +174,7 @@ inline constexpr double least_near = 0.05, plain_paths = 256.0;
 // Share of the rays that may meet a small object near the point, such as an eave or a table leg, which hides much of its light.
 inline constexpr double few_rays = 0.01;
 
-inline constexpr double least_distance = 1e-6;  // lower limit of the distances of hits, in a scene of size 1 to 2
+inline constexpr double least_distance = 0.1;  // lower limit of the distances of hits, relative to DirectLight::off_surface
 
 }  // namespace detail
 
@@ -192,7 +192,7 @@ HALFLIGHT_INLINE FinalGather::Arriving FinalGather::arriving(const Sender& sende
 }
 
 HALFLIGHT_INLINE void FinalGather::cast_evenly(const Sender& sender, const Sobol4& sequence, std::uint32_t first, Sum& sum) const {
-  const double reach = objects().diameter();
+  const double reach = objects().diameter(), least = detail::least_distance * direct_.off_surface();
   const glm::dvec3 normal = sender.place.point.normal;
   raycast::Segments16 segments;
   for (unsigned k = 0; k < 16; ++k) {
@@ -203,7 +203,7 @@ HALFLIGHT_INLINE void FinalGather::cast_evenly(const Sender& sender, const Sobol
   for (std::uint32_t rest = hits.met; rest != 0; rest &= rest - 1) {
     const auto k = static_cast<unsigned>(std::countr_zero(rest));
     const raycast::Hit& hit = hits.hit[k];
-    const double distance = std::max(hit.t * reach, detail::least_distance);
+    const double distance = std::max(hit.t * reach, least);
     sum.nearness += 1.0 / distance;
     sum.distances.push_back(distance);
     if (!hit.front) { continue; }
@@ -216,7 +216,7 @@ HALFLIGHT_INLINE void FinalGather::cast_evenly(const Sender& sender, const Sobol
 }
 
 HALFLIGHT_INLINE void FinalGather::cast_at_spots(const Sender& sender, const Sobol4& sequence, std::uint32_t first, Sum& sum) const {
-  const double reach = objects().diameter();
+  const double reach = objects().diameter(), least = detail::least_distance * direct_.off_surface();
   raycast::Segments16 segments;
   std::array<BrightSpots::Target, 16> targets;
   for (unsigned k = 0; k < 16; ++k) {
@@ -235,7 +235,7 @@ HALFLIGHT_INLINE void FinalGather::cast_at_spots(const Sender& sender, const Sob
     if (!BrightSpots::reached(direct_, targets[k], sender.from, found)) { continue; }
     const Arriving light = arriving(sender, {targets[k].point, targets[k].object, targets[k].sheet});
     if (!(light.aimed > 0.0) || hits.hit[k].t * reach < light.coarse_within) { continue; }
-    sum.add(k / 4, light.light / (1.0 + light.aimed), std::max(hit.t * reach, detail::least_distance));
+    sum.add(k / 4, light.light / (1.0 + light.aimed), std::max(hit.t * reach, least));
     ++sum.spots_met;
   }
 }

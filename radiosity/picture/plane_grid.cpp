@@ -30,7 +30,7 @@ inline constexpr std::size_t most_shares = 64;        // entries per triangle in
 inline constexpr std::size_t looks_a_share = 8;       // tests of a triangle with a cell, per entry
 inline constexpr double weight_slip = 1e-9;           // a point is in a triangle if no weight is below minus this
 inline constexpr double cell_slip = 1e-5;             // relative to its width: a triangle within this distance belongs to a cell
-inline constexpr double least_width = 1e-7;  // of a divided cell, relative to the coordinates: their rounding error is far below cell_slip
+inline constexpr double least_width = 1e-10;          // of a divided cell, relative to the coordinates: cell_slip of it is above rounding
 
 }  // namespace detail
 

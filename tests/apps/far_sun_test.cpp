@@ -68,7 +68,7 @@ TEST_CASE("under a sun that looks the same the picture and all radiosities are t
     const glm::dvec3 block{between(1.0, 4.0), between(1.0, 4.0), between(0.5, 4.0)};
     const double height = between(0.3, 1.3), azimuth = between(0.0, 2.0 * std::numbers::pi);
     const glm::dvec3 to_sun{std::cos(height) * std::cos(azimuth), std::cos(height) * std::sin(azimuth), std::sin(height)};
-    const double distance = std::pow(10.0, between(5.0, 7.5)), reflectance = round % 2 == 0 ? 0.0 : 0.8;
+    const double distance = std::pow(10.0, between(5.0, 9.0)), reflectance = round % 2 == 0 ? 0.0 : 0.8;
     CAPTURE(round, distance, reflectance, block.x, block.y, block.z, height, azimuth);
     // From the nearer one rays diverge by a thousandth over the ground.
     const Shown near = shown(block_under_sun(block, to_sun, 3e4, reflectance));
@@ -79,16 +79,16 @@ TEST_CASE("under a sun that looks the same the picture and all radiosities are t
       off += glm::dot(a - b, a - b);
       all += glm::dot(a, a);
     }
-    CHECK(std::sqrt(off / all) < 0.02);
+    CHECK(std::sqrt(off / all) < 0.01);
     REQUIRE(near.means.size() == far.means.size());
     for (std::size_t k = 0; k < near.means.size(); ++k) {
       CAPTURE(k);
       if (near.means[k].name == "sun") { continue; }
       const glm::dvec3 a{near.means[k].radiosity}, b{far.means[k].radiosity};
       CHECK(glm::length(a - b) <= 0.05 * glm::length(a));
-      if (near.means[k].name == "block.z1") {  // sees the sun alone, a disk under the half angle asin .0022
-        CHECK(b.x == Approx(0.7 * 6e7 * 0.0022 * 0.0022 * to_sun.z).epsilon(0.002));
-      }
+      // Sees the sun alone, a disk under the half angle asin .0022. Its chords are within 1 % of its diameter, so sixteen go around its
+      // outline; with its area put back, what is seen of it from any side is right within (pi / 16)^2 / 6.
+      if (near.means[k].name == "block.z1") { CHECK(b.x == Approx(0.7 * 6e7 * 0.0022 * 0.0022 * to_sun.z).epsilon(0.0065)); }
     }
   }
 }
