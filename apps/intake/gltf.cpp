@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// glTF 2.0, as text (.gltf) and as binary (.glb): nodes with their matrices, triangles, materials, cameras, lights. Skins, morphs and
-// compressed meshes are ignored with a note. A file that requires an unknown extension is not refused: all geometry that can be read is
-// read.
+// glTF 2.0, as text (.gltf) and as binary (.glb): nodes with their matrices, triangles, skins in the pose of the file, materials, cameras,
+// lights. Morphs and compressed meshes are ignored with a note. A file that requires an unknown extension is not refused: all geometry
+// that can be read is read.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -15,6 +15,7 @@
 #include "apps/bytes.hpp"
 #include "apps/intake/gltf_data.hpp"
 #include "apps/intake/gltf_looks.hpp"
+#include "apps/intake/gltf_nodes.hpp"
 #include "apps/intake/json_reader.hpp"
 #include "apps/intake/model.hpp"
 #include "apps/mesh_file/reading.hpp"
@@ -62,26 +63,6 @@ class GltfReader {
   }
   ModelResult take() { return read_result(std::move(model_), errors_); }
 
-  static glm::dmat4 transform(const JsonValue& node) {
-    if (const auto m = array_of<16>(node["matrix"])) {
-      glm::dmat4 matrix(1.0);
-      for (int i = 0; i < 16; ++i) { matrix[i / 4][i % 4] = (*m)[static_cast<std::size_t>(i)]; }
-      return matrix;
-    }
-    const auto t = array_of<3>(node["translation"]).value_or(std::array{0.0, 0.0, 0.0});
-    const auto r = array_of<4>(node["rotation"]).value_or(std::array{0.0, 0.0, 0.0, 1.0});
-    const auto s = array_of<3>(node["scale"]).value_or(std::array{1.0, 1.0, 1.0});
-    return placed({t[0], t[1], t[2]}, glm::dquat(r[3], r[0], r[1], r[2]), {s[0], s[1], s[2]});
-  }
-
-  static glm::dmat4 placed(const glm::dvec3& translation, const glm::dquat& rotation, const glm::dvec3& scale) {
-    const glm::dmat3 linear = glm::mat3_cast(rotation);
-    glm::dmat4 matrix(1.0);
-    for (int c = 0; c < 3; ++c) { matrix[c] = glm::dvec4(linear[c] * scale[c], 0.0); }
-    matrix[3] = glm::dvec4(translation, 1.0);
-    return matrix;
-  }
-
   // Visits the nodes of the scene or, if none is named, all nodes without a parent. Each node has one parent, so it is visited once.
   void nodes() {
     const JsonValue &nodes = (*root_)["nodes"], &scenes = (*root_)["scenes"];
@@ -120,10 +101,9 @@ class GltfReader {
       const auto [index, parent] = open.back();
       open.pop_back();
       const JsonValue& node = nodes[index];
-      const glm::dmat4 matrix = parent * transform(node);
+      const glm::dmat4 matrix = parent * gltf_matrix(node);
       if (node["mesh"]) { instances(node, matrix, index); }
       if (node["camera"]) { camera(node, matrix); }
-      if (node["skin"]) { notes_.add("skins are not read: meshes stand as they are drawn", "node " + std::to_string(index)); }
       if (const JsonValue& named = node["extensions"]["KHR_lights_punctual"]["light"]) { light(named, matrix, index); }
       for (std::size_t i = node["children"].items().size(); i-- > 0;) { push(node["children"][i], matrix); }
     }
@@ -152,7 +132,7 @@ class GltfReader {
       const glm::dquat turn(at(turned, 4, 3, 1.0), at(turned, 4, 0, 0.0), at(turned, 4, 1, 0.0), at(turned, 4, 2, 0.0));
       const glm::dvec3 scale(at(scaled, 3, 0, 1.0), at(scaled, 3, 1, 1.0), at(scaled, 3, 2, 1.0));
       const glm::dvec3 move(at(moved, 3, 0, 0.0), at(moved, 3, 1, 0.0), at(moved, 3, 2, 0.0));
-      mesh(node, matrix * placed(move, turn, scale), index);
+      mesh(node, matrix * gltf_placed(move, turn, scale), index);
     }
   }
 
@@ -168,7 +148,7 @@ class GltfReader {
       if (errors_.full() || too_large_) { return; }
       model_.begin_part("meshes[" + std::to_string(*node["mesh"].index()) + "].primitives[" + std::to_string(number++) + "] of nodes[" +
                         std::to_string(index) + "] " + mesh_file::shown(model_.groups[group]));
-      triangles(primitive, matrix, group);
+      triangles(primitive, node["skin"], matrix, group);
     }
   }
 
@@ -186,7 +166,15 @@ class GltfReader {
     return std::nullopt;
   }
 
-  void triangles(const JsonValue& primitive, const glm::dmat4& matrix, std::uint32_t group) {
+  // The matrix of each vertex of a skinned primitive; nothing for others.
+  [[nodiscard]] std::optional<std::vector<glm::dmat4>> skin_matrices(const JsonValue& primitive, const JsonValue& skin,
+                                                                     std::size_t vertices, std::string& fault) {
+    if (!skin) { return std::nullopt; }
+    if (in_scene_.empty()) { in_scene_ = gltf_scene_matrices((*root_)["nodes"]); }
+    return gltf_skin((*root_)["skins"][skin.index().value_or(nowhere)], *data_, primitive, in_scene_, vertices, fault);
+  }
+
+  void triangles(const JsonValue& primitive, const JsonValue& skin, const glm::dmat4& matrix, std::uint32_t group) {
     const std::string place = "in " + mesh_file::shown(model_.groups[group]);
     const std::size_t mode = primitive["mode"] ? primitive["mode"].index().value_or(nowhere) : 4;
     if (mode < 4 || mode > 6) { return pass_over("points and lines have no surface: left out", place); }
@@ -208,8 +196,11 @@ class GltfReader {
       too_large_ = true;
       return error(primitive.offset(), "the scene has more than " + std::to_string(most_polygons) + " triangles");
     }
+    const auto skinned = skin_matrices(primitive, skin, vertices, fault);
+    const auto to_scene = [&](std::size_t v) -> const glm::dmat4& { return skinned ? (*skinned)[v] : matrix; };
+    if (!fault.empty()) { return error(primitive.offset(), fault); }
     for (std::size_t v = 0; v < vertices; ++v) {
-      model_.positions.emplace_back(matrix * glm::dvec4((*positions)[3 * v], (*positions)[3 * v + 1], (*positions)[3 * v + 2], 1.0));
+      model_.positions.emplace_back(to_scene(v) * glm::dvec4((*positions)[3 * v], (*positions)[3 * v + 1], (*positions)[3 * v + 2], 1.0));
     }
     const auto vertex = [&](std::size_t i) { return given ? (*given)[i] : static_cast<double>(i); };
     for (std::size_t i = 0; i < count; ++i) {
@@ -221,7 +212,7 @@ class GltfReader {
     if (!material && model_.materials.size() == default_material_) {
       model_.materials.push_back({"default", {}, radiosity::Color(0.0), false});
     }
-    const bool mirrored = glm::determinant(glm::dmat3(matrix)) < 0.0;
+    const bool mirrored = vertices > 0 && glm::determinant(glm::dmat3(to_scene(0))) < 0.0;
     const std::vector<glm::dvec2> places = gltf_texture_places(*root_, *data_, primitive, material, vertices);
     const std::vector<double> paint = gltf_vertex_colors(*root_, *data_, primitive, vertices, notes_, place);
     const std::size_t step = mode == 4 ? 3 : 1;
@@ -293,6 +284,7 @@ class GltfReader {
   const SideFile& side_file_;
   const JsonValue* root_ = nullptr;
   GltfData* data_ = nullptr;
+  std::vector<glm::dmat4> in_scene_;  // of all nodes, once a skin asks for them
   std::uint32_t default_material_ = 0;
   std::string why_;
   bool too_large_ = false;

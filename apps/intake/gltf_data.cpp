@@ -189,8 +189,9 @@ std::optional<std::vector<double>> GltfData::numbers(const JsonValue& accessor_i
   if (!accessor) { return fail("there is no such accessor"); }
   const std::string who = "accessor " + std::to_string(*index);
   constexpr std::array<std::string_view, 4> names{"SCALAR", "VEC2", "VEC3", "VEC4"};
-  if (!component_type(accessor["componentType"]) || accessor["type"].string() != names[components - 1]) {
-    return fail(who + " is not of the type " + std::string(names[components - 1]) + " that stands here");
+  const std::string_view name = components == 16 ? "MAT4" : names[components - 1];
+  if (!component_type(accessor["componentType"]) || accessor["type"].string() != name) {
+    return fail(who + " is not of the type " + std::string(name) + " that stands here");
   }
   const auto count = accessor["count"].index();
   if (!count) { return fail(who + " has no count"); }

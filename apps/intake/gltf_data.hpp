@@ -35,7 +35,8 @@ class GltfData {
   GltfData(const JsonValue& root, std::optional<std::string_view> binary, const SideFile& side_file)
       : root_(root), binary_(binary), side_file_(side_file) {}
 
-  // All numbers of an accessor with `components` per element (1 for indices). After an error nothing, and a sentence in `fault`.
+  // All numbers of an accessor with `components` per element: 1 for indices, 2 to 4, or 16 for matrices, column by column. After an error
+  // nothing, and a sentence in `fault`.
   [[nodiscard]] std::optional<std::vector<double>> numbers(const JsonValue& accessor_index, std::size_t components, std::string& fault);
 
   // The bytes of a picture, wherever they are; nothing if they cannot be found.
