@@ -78,8 +78,8 @@ struct SceneResult : ErrorReport {
 [[nodiscard]] SceneResult parse_scene(std::string_view text, const SideFile& side_file = {},
                                       const std::optional<radiosity::Camera>& first = {});
 
-// Parses the clauses of a camera statement, such as "eye 1 2 1.5 target 0 0 1 fov 60"; if they are invalid, nothing and a
-// sentence in `fault`.
+// Parses the clauses of a camera statement, such as "eye 1 2 1.5 target 0 0 1 fov 60"; commas count as spaces. If the clauses are invalid,
+// returns nothing and a sentence in `fault`.
 [[nodiscard]] std::optional<radiosity::Camera> parse_camera(std::string_view clauses, std::string& fault);
 // Does the text begin with the word of such a clause, so that it is not the name of a camera?
 [[nodiscard]] bool begins_camera(std::string_view text);

@@ -1,6 +1,6 @@
 #!/bin/sh
 # The room with windows cut out of one block, and the same room from separate polygons, solved ever finer: what each needs for its measured
-# error. Prints a table; pictures and reports go to the folder OUT. Takes a minute of CPU time.
+# error. Prints a table; pictures and reports go to the folder OUT. Takes two minutes of CPU time.
 #
 #     sh examples/compare_windows.sh [OUT [EPSILON...]]        (default . 0.04 0.02 0.01)
 set -eu

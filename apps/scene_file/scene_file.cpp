@@ -33,13 +33,16 @@ bool begins_camera(std::string_view text) {
 }
 
 std::optional<radiosity::Camera> parse_camera(std::string_view clauses, std::string& fault) {
-  const std::string text = "camera given " + std::string(clauses);
+  std::string text = "camera given " + std::string(clauses);
+  std::replace(text.begin(), text.end(), ',', ' ');
   Errors errors;
   const scene_file::SceneSyntax syntax = scene_file::Parser(text, errors).scene();
   std::optional<radiosity::Camera> camera;
   if (errors.count() == 0 && text.find('\n') == text.npos) { camera = scene_file::make_camera(syntax.cameras.front(), errors); }
   if (errors.count() > 0) {
     fault = errors.take().errors.back().sentence;  // errors about missing clauses come first, because their place is the name
+    constexpr std::string_view no_file = " of the file";
+    if (fault.ends_with("the end" + std::string(no_file))) { fault.resize(fault.size() - no_file.size()); }
     return std::nullopt;
   }
   if (camera) { camera->name = "(given)"; }  // not a valid name in a file

@@ -186,6 +186,9 @@ TEST_CASE("a camera in words shows what the same camera in the scene shows, to t
   REQUIRE(place.run("render with.scene -o with.pfm" + coarse).code == 0);
   REQUIRE(place.run("render without.scene -o without.pfm --camera '" + words + "'" + coarse).code == 0);
   CHECK(place.read("with.pfm") == place.read("without.pfm"));
+  const std::string commas = "eye 0.2,0.3,0.5 target 2, 1.5, 0.4 up 0.1,0,1 fov 70 size 24,16";
+  REQUIRE(place.run("render without.scene -o commas.pfm --camera '" + commas + "'" + coarse).code == 0);
+  CHECK(place.read("with.pfm") == place.read("commas.pfm"));
   const auto refused = [&](const std::string& camera, const std::string& reason) {
     const program::Run run = place.run("render with.scene -o no.pfm --camera '" + camera + "'");
     CHECK(run.code == 2);
@@ -194,6 +197,7 @@ TEST_CASE("a camera in words shows what the same camera in the scene shows, to t
   };
   refused("eye 1 1 0.5", "needs 'target' or 'look'");
   refused("eye 1 1 0.5 look 0 0 0", "looks nowhere");
+  refused("eye 1 1 0.5 look 1 0", "expected number 3, found the end");
   refused("eye 1 1 x look 1 0 0", "found 'x'");
   refused("eye 1 1 0.5 look 1 0 0\nmaterial m reflectance 0.5", "one line");
 }

@@ -22,7 +22,7 @@ for scene in examples/scenes/cornell examples/scenes/room examples/scenes/boxes 
         /^  surfaces  / { surfaces = after("surfaces") }
         /^  leaf constants/ { leaves = after("leaf constants") }
         /^  total / { cpu = $3 }
-        /^  links  / { sub(/^ *links +/, ""); sub(/,.*/, ""); links = $0 }
+        /^  links  / { sub(/^ *links +/, ""); sub(/[;,].*/, ""); links = $0 }
         END { printf "| %s | %s | %s | %.2f | %s | %s | %s |\n", scene, epsilon, by, cpu, links, surfaces, leaves }'
     done
   done

@@ -118,7 +118,7 @@ for output in 'report' 'picture'; do
   "$program" render interior.obj --threads 1 --quiet "$@" > report.txt
   awk -v output=$output '
     /^  total / { cpu = $3 } /^  picture \(apart\)/ { drawn = $4 }
-    /^  (leaf constants|picture front)/ && error == "" { error = $0; sub(/^ *(leaf constants|picture front) */, "", error) }
+    /^  (leaf constants|picture [^ (]+) .*%/ && !/apart/ && error == "" { error = $0; sub(/^ *(leaf constants|picture [^ ]+) */, "", error) }
     END { printf "| %s | %.1f | %s |\n", output, cpu + drawn, error }' report.txt
 done
 grep -A8 '^taken in' report.txt | sed '/^error/,$d' >&2
