@@ -84,7 +84,8 @@ struct Options {
   // is at most this: Solution::refined. Requires shared topology and a reconstruction with colours at the corners.
   std::optional<double> mesh_error;
 
-  // Automatic: by rays from some 100 input faces on, and if most light is reflected close beside a lamp (ray_choice.hpp).
+  // Automatic: by rays from some 100 input faces on, if most light is reflected close beside a lamp, and if Control::viewpoint is in a room
+  // that is dim beside the rest of the scene (ray_choice.hpp).
   Indirect indirect = Indirect::automatic;
 
   // An oracle that refinement asks instead of its own (oracle.hpp states the contract). In F-refinement it replaces the rule with

@@ -30,7 +30,7 @@
 namespace {
 
 constexpr glm::dvec3 lamp_centre{-3.0, -4.0, 3.0};
-constexpr double lamp_radius = 0.05, exitance = 1e4, reflectance = 1e-3;
+constexpr double lamp_radius = 0.05, lamp_exitance = 1e4, dark_reflectance = 1e-3;
 
 std::vector<std::shared_ptr<const raycast::Object>> curved_things() {
   return {raycast::Sphere::make({0, 0, 0}, 1.0).object, raycast::Cylinder::make({0, 0, -1}, {0, 0, 2}, 0.8).object,
@@ -45,8 +45,9 @@ std::vector<std::shared_ptr<const raycast::Object>> curved_things() {
 TEST_CASE("a gathered picture shows curved surfaces where they are, not beside it", "[picture]") {
   for (const auto& shape : curved_things()) {
     // So dark that what a torus reflects onto itself does not count.
-    radiosity::Scene scene{
-        {{"dark", radiosity::Color{reflectance}, radiosity::Color{0.0}}, {"lamp", radiosity::Color{0.0}, radiosity::Color{exitance}}}, {}};
+    radiosity::Scene scene{{{"dark", radiosity::Color{dark_reflectance}, radiosity::Color{0.0}},
+                            {"lamp", radiosity::Color{0.0}, radiosity::Color{lamp_exitance}}},
+                           {}};
     scene.objects = {scenes::object("thing", shape), scenes::object("lamp", raycast::Sphere::make(lamp_centre, lamp_radius).object, 1)};
     radiosity::Options options;
     options.epsilon = 0.1;
@@ -85,7 +86,7 @@ TEST_CASE("a gathered picture shows curved surfaces where they are, not beside i
         const double r = glm::length(d), cosine = glm::dot(hit->normal, d) / r;
         const bool lit = cosine > 0.1 && !objects.closest(raycast::Segment{hit->position + 1e-6 * hit->normal, d});
         if (!whole || !lit) { continue; }
-        const double exact = reflectance * exitance * cosine * lamp_radius * lamp_radius / (r * r);
+        const double exact = dark_reflectance * lamp_exitance * cosine * lamp_radius * lamp_radius / (r * r);
         const double off = picture.radiosity[std::size_t{y} * 49 + x].x / brightest - exact / brightest;
         square += off * off;
         ++count;
