@@ -167,9 +167,8 @@ ExitCode run_program(const std::vector<Command>& commands, int argc, char** argv
   app.set_version_flag("--version", std::string("halflight ") + version);
   app.footer(
       "Exit codes: 0 done, 1 failure, 2 wrong usage, 3 invalid scene, mesh or script, 4 not converged.\n"
-      "'-' as a scene is the standard input; as the output of --json, --csv, explain or exercise, whose format is known, it is the "
-      "standard "
-      "output, and what is told goes to stderr then.");
+      "'-' as a scene is the standard input; as the output of --json, --csv, explain or exercise, whose format is known, it is\n"
+      "the standard output, and what is told goes to stderr then.");
   app.require_subcommand(1);
   for (const Command& command : commands) { describe(app, command); }
   const std::span<const char* const> arguments(argv + 1, argv + argc);

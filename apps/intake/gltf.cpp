@@ -19,6 +19,7 @@
 #include "apps/intake/json_reader.hpp"
 #include "apps/intake/model.hpp"
 #include "apps/mesh_file/reading.hpp"
+#include "apps/text.hpp"
 
 namespace apps::intake {
 namespace {
@@ -205,8 +206,7 @@ class GltfReader {
     const auto vertex = [&](std::size_t i) { return given ? (*given)[i] : static_cast<double>(i); };
     for (std::size_t i = 0; i < count; ++i) {
       if (!(vertex(i) >= 0.0 && vertex(i) < static_cast<double>(vertices))) {
-        return error(primitive.offset(),
-                     "an index names vertex " + std::to_string(static_cast<std::int64_t>(vertex(i))) + " of " + std::to_string(vertices));
+        return error(primitive.offset(), "an index names vertex " + formatted("%.0f", vertex(i)) + " of " + std::to_string(vertices));
       }
     }
     if (!material && model_.materials.size() == default_material_) {

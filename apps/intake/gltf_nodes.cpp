@@ -14,6 +14,8 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
+#include "apps/text.hpp"
+
 namespace apps::intake {
 namespace {
 
@@ -103,7 +105,7 @@ std::optional<std::vector<glm::dmat4>> gltf_skin(const JsonValue& skin, GltfData
       const double weight = (*weights)[k], joint = (*joints)[k];
       if (!(weight > 0.0)) { continue; }
       if (!(joint >= 0.0 && joint < static_cast<double>(count))) {
-        return fail("a vertex names joint " + std::to_string(static_cast<long long>(joint)) + " of " + std::to_string(count));
+        return fail("a vertex names joint " + formatted("%.0f", joint) + " of " + std::to_string(count));
       }
       result[v] += weight * of_joint[static_cast<std::size_t>(joint)];
       sum += weight;

@@ -300,8 +300,7 @@ class SceneMaker {
     if (file_.cameras.empty()) { file_.cameras.push_back(radiosity::automatic_camera(file_.scene)); }
     const raycast::Box bounds = radiosity::scene_bounds(file_.scene);
     const double size = bounds.diameter();
-    // A model flatter than this fraction of its size is put above the floor, from which it could not be distinguished otherwise.
-    constexpr double flat = 0.01;
+    constexpr double flat = 0.01;  // a model flatter than this fraction of its size is put above the floor, to be distinguished from it
     const double gap = bounds.hi.z - bounds.lo.z < flat * size ? 0.1 * size : 0.0;
     const glm::dvec3 middle{bounds.centre().x, bounds.centre().y, bounds.lo.z - gap};
     const glm::dvec3 reach{1.5 * size, 1.5 * size, 0.0}, top{0.0, 0.0, 2.0 * size};

@@ -20,7 +20,8 @@ namespace raster {
 
 inline constexpr std::int64_t snap = 4096;  // steps between two sample points
 inline constexpr double guard = 2.0;        // the side planes are this many half-widths from the middle of the view
-// Distance of the near plane, relative to the nearest vertex ahead, and at least relative to the farthest one: its rounding.
+// Distance of the near plane, relative to that of the nearest vertex ahead; but no less than the second value, relative to the farthest
+// vertex, because the coordinates are rounded.
 inline constexpr double near_part = 1e-6, least_near_part = 1e-12;
 
 using Polygon = std::vector<glm::dvec3>;

@@ -64,7 +64,7 @@ struct Facets {
 [[nodiscard]] Facets facets_of(const Surface& surface, std::span<const std::uint32_t> sheets);
 [[nodiscard]] double area_of(const Facets& facets);
 // Does no corner of a closed body lie more than `tolerance` (a length) in front of one of its facets? False for bodies of more than
-// `most` facets, which are not checked.
+// 1000 facets, which are not checked.
 [[nodiscard]] bool convex_within(const Facets& facets, double tolerance);
 // Adds all of `more` to `facets`, as one part.
 void append(Facets& facets, const Facets& more);

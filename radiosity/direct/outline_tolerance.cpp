@@ -73,11 +73,11 @@ HALFLIGHT_INLINE Facets facets_for_outline(const raycast::PlacedObject& object, 
   constexpr std::size_t most_facets = 4096;
   double tolerance = outline_tolerance(object, part);
   Facets facets = facets_of(object, tolerance, sheet);
-  constexpr int most_steps = 32;  // of halving: what is not there then never will be, at the cusp of a blade, say
+  constexpr int most_steps = 32;  // because at the cusp of a blade finer chords may never reach the share
   for (int step = 0; step < most_steps; ++step) {
     const double share = detail::area_share(facets, object, tolerance, sheet);
     if (share >= least_share) { break; }
-    constexpr double least_step = 0.5, most_step = 0.8;  // what chords lose is as much as the tolerance, but for their whole numbers
+    constexpr double least_step = 0.5, most_step = 0.8;  // the area that chords lose is about proportional to the tolerance
     tolerance *= std::clamp((1.0 - least_share) / (1.0 - share), least_step, most_step);
     Facets finer = facets_of(object, tolerance, sheet);
     if (finer.facets.size() > most_facets) { break; }

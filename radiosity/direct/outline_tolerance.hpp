@@ -18,10 +18,10 @@ namespace radiosity {
 // because the bounds may be much wider.
 [[nodiscard]] double outline_tolerance(const raycast::PlacedObject& object, double part);
 
-// The facets of a sheet of a curved solid, by the tolerance above or a finer one, until they have the area of the sheet within .3 %: a long
-// tube or a thin ring has few facets around it by a tolerance that is relative to its length, and its outline is then narrower or wider
-// by 8 %, as it turns. (Around a circle n chords lose (pi / n)^2 / 6 of its length, and up to three times that of its width.) They are
-// 4096 at most, if those by the tolerance above are not more.
+// The facets of a sheet of a curved solid. Begins with the tolerance above and makes it smaller until the facets have the area of the
+// sheet within .3 %, or would be more than 4096. A tolerance relative to its length leaves a long tube or a thin ring only eight facets
+// around, and the width of its outline then varies by 8 % with the direction. (n chords of a circle lose (pi / n)^2 / 6 of its length, and
+// up to three times that of its width.)
 [[nodiscard]] Facets facets_for_outline(const raycast::PlacedObject& object, double part, std::uint32_t sheet);
 
 }  // namespace radiosity

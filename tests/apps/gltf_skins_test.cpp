@@ -68,7 +68,7 @@ Skinned skinned(std::mt19937& random, bool bound) {
   std::string joints, weights, inverse;
   for (int v = 0; v < 4; ++v) {
     result.weights.push_back(static_cast<float>(random() % 5) / 4.0F);
-    for (const std::uint8_t j : {1, 0, 1, 1}) { put(joints, j); }
+    for (const int j : {1, 0, 1, 1}) { put(joints, static_cast<std::uint8_t>(j)); }
     for (const float w : {0.0F, result.weights.back(), 1.0F - result.weights.back(), 0.0F}) { put(weights, w); }
   }
   for (const glm::dmat4& joint : result.joints) {
@@ -132,5 +132,12 @@ TEST_CASE("glTF: what is wrong with a skin is told") {
   refused("\"joints\": [1, 2]", "\"joints\": [1, 7]", "names a node that does not exist");
   refused("\"joints\": [1, 2]", "\"joints\": [1]", "names joint 1 of 1");
   refused("\"skin\": 0", "\"skin\": 3", "no such skin");
+  // Joints as numbers of single precision: bytes of which some are no numbers.
+  Skinned wild = given;
+  wild.sample.binary += std::string(64, '\xff');
+  const std::size_t j = add(wild.sample, std::string(64, '\xff'), 5126, 4, "VEC4");
+  const std::size_t at = wild.sample.primitive.find("\"JOINTS_0\": ") + 12;
+  wild.sample.primitive.replace(at, 1, std::to_string(j));
+  CHECK(models::error("a.gltf", wild.sample.embedded()).find("names joint") != std::string::npos);
   refused("\"type\": \"MAT4\"", "\"type\": \"VEC4\"", "MAT4");
 }
