@@ -3,7 +3,8 @@
 
 #include <algorithm>
 #include <map>
-#include <numeric>
+
+#include <brep/union_find.hpp>
 
 namespace apps::euler {
 namespace {
@@ -24,17 +25,12 @@ class Opening {
 
   // Adds, in this order, all edges that keep the map planar.
   void add(const std::vector<std::uint32_t>& order) {
-    std::vector<std::uint32_t> piece(records_.vertices.size());
-    std::iota(piece.begin(), piece.end(), 0U);
-    const auto root = [&](std::uint32_t v) {
-      while (piece[v] != v) { v = piece[v] = piece[piece[v]]; }
-      return v;
-    };
+    brep::detail::UnionFind joined(records_.vertices.size());
     label_faces();
     for (const std::uint32_t e : order) {
-      const std::uint32_t a = root(records_.halfedges[2 * e].vertex), b = root(records_.halfedges[2 * e + 1].vertex);
-      if (a == b && face_[2 * e] != face_[2 * e + 1]) { continue; }
-      piece[a] = b;
+      const std::uint32_t a = records_.halfedges[2 * e].vertex, b = records_.halfedges[2 * e + 1].vertex;
+      if (joined.find(a) == joined.find(b) && face_[2 * e] != face_[2 * e + 1]) { continue; }
+      joined.unite(a, b);
       whole_[e] = true;
       label_faces();
     }

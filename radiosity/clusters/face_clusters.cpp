@@ -18,6 +18,7 @@
 #include <brep/builder_input.hpp>
 #include <brep/circulators.hpp>
 #include <brep/handles.hpp>
+#include <brep/union_find.hpp>
 
 #include <raycast/inline.hpp>
 
@@ -97,10 +98,7 @@ class FaceContraction {
   }
 
   // The cluster that contains i now.
-  [[nodiscard]] std::uint32_t holder(std::uint32_t i) {
-    while (up_[i] != i) { i = up_[i] = up_[up_[i]]; }
-    return i;
-  }
+  [[nodiscard]] std::uint32_t holder(std::uint32_t i) { return brep::detail::find_root(up_, i); }
 
   // Replaces merged neighbours by the clusters that contain them, and joins duplicates.
   void tidy(std::uint32_t i) {

@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <numbers>
-#include <numeric>
 #include <optional>
 #include <span>
 #include <tuple>
@@ -17,6 +16,7 @@
 #include <glm/vec3.hpp>
 
 #include <brep/polygon.hpp>
+#include <brep/union_find.hpp>
 
 #include <raycast/inline.hpp>
 
@@ -71,30 +71,6 @@ inline bool back_to_back(const Face& a, const Face& b) {
   return true;
 }
 
-// Union-find with path halving.
-class Sets {
- public:
-  explicit Sets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0U); }
-  std::uint32_t find(std::uint32_t i) {
-    while (parent_[i] != i) { i = parent_[i] = parent_[parent_[i]]; }
-    return i;
-  }
-  void unite(std::uint32_t a, std::uint32_t b) {
-    a = find(a), b = find(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-  // Numbers the sets from 0 in the order of their first members; returns how many there are.
-  std::uint32_t number(std::vector<std::uint32_t>& out) {
-    std::uint32_t count = 0;
-    out.resize(parent_.size());
-    for (std::uint32_t i = 0; i < parent_.size(); ++i) { out[i] = find(i) == i ? count++ : out[find(i)]; }
-    return count;
-  }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
-
 class Joiner {
  public:
   explicit Joiner(Working& mesh) : mesh_(mesh), uses_(uses_of(mesh, topology_.first)), loose_(mesh.faces.size(), false) {
@@ -111,11 +87,11 @@ class Joiner {
       loosen(report);
       again = loosened_ != before;
     }
-    Sets components(mesh_.faces.size());
+    brep::detail::UnionFind components(mesh_.faces.size());
     for (std::uint32_t s = 0; s < topology_.mate.size(); ++s) {
       if (topology_.mate[s] != none) { components.unite(face_of_[s], face_of_[topology_.mate[s]]); }
     }
-    topology_.components = components.number(topology_.component);
+    topology_.components = components.enumerate(topology_.component);
     return std::move(topology_);
   }
 
@@ -197,12 +173,12 @@ class Joiner {
   }
 
   void part_fans() {
-    Sets fans(uses_.size());
+    brep::detail::UnionFind fans(uses_.size());
     for (std::uint32_t s = 0; s < topology_.mate.size(); ++s) {
       const std::uint32_t t = topology_.mate[s];
       if (t != none) { fans.unite(s, topology_.next(t, face_of_[t])); }
     }
-    topology_.vertices = fans.number(topology_.vertex);
+    topology_.vertices = fans.enumerate(topology_.vertex);
   }
 
   // Makes faces loose that share an edge and direction with another one, or meet another one in an edge without being its neighbour: at

@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <map>
 #include <memory>
-#include <numeric>
 #include <optional>
 #include <span>
 #include <string>
@@ -21,6 +20,7 @@
 #include <brep/brep.hpp>
 #include <brep/builder.hpp>
 #include <brep/builder_input.hpp>
+#include <brep/union_find.hpp>
 
 #include <raycast/box.hpp>
 #include <raycast/bvh.hpp>
@@ -298,20 +298,13 @@ HALFLIGHT_INLINE bool Mesh::embedded() const {
 }
 
 HALFLIGHT_INLINE std::vector<std::uint32_t> Mesh::connected() const {
-  std::vector<std::uint32_t> parent(positions_.size());
-  std::iota(parent.begin(), parent.end(), 0U);
-  const auto root = [&](std::uint32_t v) {
-    while (parent[v] != v) { v = parent[v] = parent[parent[v]]; }
-    return v;
-  };
+  brep::detail::UnionFind joined(positions_.size());
   for (std::uint32_t f = 0; f < planes_.size(); ++f) {
-    for (const std::uint32_t v : corners(f)) {
-      const auto [less, greater] = std::minmax({root(v), root(corners(f).front())});
-      parent[greater] = less;
-    }
+    for (const std::uint32_t v : corners(f)) { joined.unite(v, corners(f).front()); }
   }
-  for (std::uint32_t v = 0; v < parent.size(); ++v) { parent[v] = root(v); }
-  return parent;
+  std::vector<std::uint32_t> first(positions_.size());
+  for (std::uint32_t v = 0; v < first.size(); ++v) { first[v] = joined.find(v); }
+  return first;
 }
 
 HALFLIGHT_INLINE bool Mesh::alternates_at(std::uint32_t face) const {
