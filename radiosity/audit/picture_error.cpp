@@ -27,6 +27,7 @@
 #include <radiosity/audit/path_tracer.hpp>
 #include <radiosity/audit/pixel_draw.hpp>
 #include <radiosity/result/error_estimate.hpp>
+#include <radiosity/scene/batches.hpp>
 #include <radiosity/scene/frame.hpp>
 #include <radiosity/scene/light_unit.hpp>
 #include <radiosity/scene/material.hpp>
@@ -68,18 +69,12 @@ HALFLIGHT_INLINE std::optional<PictureError> PictureAudit::measure(const ShownPi
     const std::uint32_t side = PixelDraw::side(points);
     to.samples.assign(PixelDraw::size(side), {});
     const std::uint64_t first = std::exchange(keys, keys + to.samples.size());
-    constexpr std::size_t batch = 512;  // pixels between two checks of the cancel flag
-    for (std::size_t done = 0; done < to.samples.size() && !control.cancelled(); done += batch) {
-      parallel_for(
-          std::min(batch, to.samples.size() - done), thread_count(threads),
-          [&](std::size_t offset) {
-            if (control.cancelled()) { return; }
-            const std::size_t i = done + offset;
-            to.samples[i] = measure_pixel(series, first + i, i, side, paths);
-          },
-          4);
-      control.report("audit", static_cast<double>(done) / static_cast<double>(to.samples.size()));
-    }
+    parallel_in_batches(
+        control, thread_count(threads), to.samples.size(), {512, 4},
+        [&](std::size_t i) {
+          if (!control.cancelled()) { to.samples[i] = measure_pixel(series, first + i, i, side, paths); }
+        },
+        [&](std::size_t done) { control.report("audit", static_cast<double>(done) / static_cast<double>(to.samples.size())); });
     for (const Sample& sample : to.samples) {
       rays += sample.rays;
       to.rays += sample.rays;

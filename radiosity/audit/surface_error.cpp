@@ -23,10 +23,10 @@
 #include <radiosity/hierarchy/surface.hpp>
 #include <radiosity/result/error_estimate.hpp>
 #include <radiosity/result/mesh.hpp>
+#include <radiosity/scene/batches.hpp>
 #include <radiosity/scene/material.hpp>
 #include <radiosity/scene/options.hpp>
 #include <radiosity/scene/scene.hpp>
-#include <radiosity/support/parallel.hpp>
 #include <radiosity/support/random.hpp>
 #include <radiosity/support/sobol.hpp>
 #include <radiosity/visibility/exposure.hpp>
@@ -73,20 +73,13 @@ HALFLIGHT_INLINE bool SurfaceErrorMeter::measure(std::uint64_t points, std::uint
   std::vector<Sample> samples(points);
   const std::uint64_t first_key = keys_;
   keys_ += points;
-  constexpr std::size_t batch = 512;  // points between two checks of the cancel flag
-  for (std::size_t first = 0; first < points && !control.cancelled(); first += batch) {
-    parallel_for(
-        std::min<std::size_t>(batch, points - first), threads,
-        [&](std::size_t offset) {
-          const std::size_t i = first + offset;
-          if (!control.cancelled()) {
-            samples[i] =
-                measure_one(first_key + i, static_cast<double>(i) / static_cast<double>(points), 1.0 / static_cast<double>(points), paths);
-          }
-        },
-        4);
-    control.report("audit", static_cast<double>(std::min<std::size_t>(first + batch, points)) / static_cast<double>(points));
-  }
+  const auto all = static_cast<double>(points);
+  parallel_in_batches(
+      control, threads, points, {512, 4},
+      [&](std::size_t i) {
+        if (!control.cancelled()) { samples[i] = measure_one(first_key + i, static_cast<double>(i) / all, 1.0 / all, paths); }
+      },
+      [&](std::size_t done) { control.report("audit", static_cast<double>(done) / all); });
   if (control.cancelled()) { return false; }
   for (const Sample& sample : samples) {
     result.rays += sample.rays;

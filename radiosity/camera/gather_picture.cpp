@@ -22,6 +22,7 @@
 #include <radiosity/camera/indirect_points.hpp>
 #include <radiosity/camera/shadow_edges.hpp>
 #include <radiosity/direct/lit_region.hpp>
+#include <radiosity/scene/batches.hpp>
 #include <radiosity/support/parallel.hpp>
 #include <radiosity/support/random.hpp>
 
@@ -68,15 +69,9 @@ class GatherPainter {
  private:
   template <class Body>
   bool each_block(double from, double to, const Body& body) {
-    constexpr std::size_t batch = 512;  // blocks between two checks of the cancel flag
-    for (std::size_t first = 0; first < blocks_.size(); first += batch) {
-      if (control_.cancelled()) { return false; }
-      const std::size_t count = std::min(batch, blocks_.size() - first);
-      parallel_for(
-          count, threads_, [&](std::size_t i) { body(first + i); }, 4);
-      control_.report("picture", from + (to - from) * static_cast<double>(first + count) / static_cast<double>(blocks_.size()));
-    }
-    return true;
+    return parallel_in_batches(control_, threads_, blocks_.size(), {512, 4}, body, [&](std::size_t done) {
+      control_.report("picture", from + (to - from) * static_cast<double>(done) / static_cast<double>(blocks_.size()));
+    });
   }
   template <class Body>
   void each_pixel(std::size_t block, const Body& body) const {
@@ -213,14 +208,11 @@ HALFLIGHT_INLINE bool GatherPainter::gather() {
       for (const std::uint32_t i : wanted[b]) { all.emplace_back(b, i); }
     }
     found.resize(all.size());
-    constexpr std::size_t batch = 1024;
-    for (std::size_t first = 0; first < all.size(); first += batch) {
-      if (control_.cancelled()) { return false; }
-      const std::size_t count = std::min(batch, all.size() - first);
-      parallel_for(
-          count, threads_, [&](std::size_t k) { found[first + k] = gather_at(blocks_[all[first + k].first][all[first + k].second]); }, 8);
-      control_.report("picture", done + 0.06 * static_cast<double>(first + count) / static_cast<double>(all.size()));
-    }
+    const auto gather_one = [&](std::size_t k) { found[k] = gather_at(blocks_[all[k].first][all[k].second]); };
+    const auto report = [&](std::size_t count) {
+      control_.report("picture", done + 0.06 * static_cast<double>(count) / static_cast<double>(all.size()));
+    };
+    if (!parallel_in_batches(control_, threads_, all.size(), {1024, 8}, gather_one, report)) { return false; }
     for (const IndirectPoint& point : found) { points_.add(point); }
     for (const auto& [block, i] : all) { fragments.push_back(blocks_[block][i]); }
   }

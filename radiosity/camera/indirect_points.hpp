@@ -17,6 +17,7 @@
 
 #include <radiosity/picture/final_gather.hpp>
 #include <radiosity/picture/gathered_point.hpp>
+#include <radiosity/scene/batches.hpp>
 #include <radiosity/scene/material.hpp>
 #include <radiosity/scene/options.hpp>
 #include <radiosity/support/parallel.hpp>
@@ -79,18 +80,12 @@ bool IndirectPoints::gather_again(unsigned threads, const Control& control, cons
   for (std::size_t i = 0; i < doubtful.size(); ++i) {
     if (doubtful[i] != 0) { chosen.push_back(i); }
   }
-  constexpr std::size_t batch = 256;  // points between two checks of the cancel flag
-  for (std::size_t first = 0; first < chosen.size(); first += batch) {
-    if (control.cancelled()) { return false; }
-    const auto each = [&](std::size_t k) {
-      IndirectPoint& point = points_[chosen[first + k]];
-      const FinalGather::Indirect found = gather(chosen[first + k]);
-      point.gathered = found.irradiance;
-      point.variance = found.variance;
-    };
-    parallel_for(std::min(batch, chosen.size() - first), threads, each, 4);
-  }
-  return true;
+  return parallel_in_batches(control, threads, chosen.size(), {256, 4}, [&](std::size_t k) {
+    IndirectPoint& point = points_[chosen[k]];
+    const FinalGather::Indirect found = gather(chosen[k]);
+    point.gathered = found.irradiance;
+    point.variance = found.variance;
+  });
 }
 
 }  // namespace radiosity

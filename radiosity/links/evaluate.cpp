@@ -25,6 +25,7 @@
 #include <radiosity/hierarchy/hierarchy.hpp>
 #include <radiosity/hierarchy/links.hpp>
 #include <radiosity/hierarchy/patch.hpp>
+#include <radiosity/scene/batches.hpp>
 #include <radiosity/scene/options.hpp>
 #include <radiosity/support/parallel.hpp>
 #include <radiosity/support/random.hpp>
@@ -254,13 +255,10 @@ HALFLIGHT_INLINE void refit_cluster_link(const Hierarchy& hierarchy, Link& link,
 template <class Evaluate, class Keep, class Done>
 void evaluate_in_order(const Evaluation& by, std::size_t count, EvaluateResult& result, const Evaluate& evaluate, const Keep& keep,
                        const Done& done) {
-  constexpr std::size_t batch = 1 << 16;  // links between two checks of the cancel flag
   std::vector<RayCount> rays;
   std::vector<Doubt> doubts;
-  for (std::size_t first = 0; first < count; first += batch) {
-    result.cancelled = by.control.cancelled();
-    if (result.cancelled) { return; }
-    const std::size_t size = std::min(batch, count - first);
+  const bool complete = in_batches(by.control, count, 1 << 16, [&](std::size_t first, std::size_t last) {
+    const std::size_t size = last - first;
     rays.assign(size, {});
     doubts.assign(size, {});
     parallel_for(size, by.threads, [&](std::size_t k) {
@@ -276,8 +274,9 @@ void evaluate_in_order(const Evaluation& by, std::size_t count, EvaluateResult& 
         ++result.blocked;
       }
     }
-    done(first + size);
-  }
+    done(last);
+  });
+  result.cancelled = result.cancelled || !complete;
 }
 
 HALFLIGHT_INLINE EvaluateResult make_links(const Evaluation& by, const NodePairs& pairs, Links& links, LinkDoubts* doubts) {

@@ -21,10 +21,10 @@
 #include <radiosity/picture/viewpoint.hpp>
 #include <radiosity/result/error_estimate.hpp>
 #include <radiosity/result/mesh.hpp>
+#include <radiosity/scene/batches.hpp>
 #include <radiosity/scene/material.hpp>
 #include <radiosity/scene/options.hpp>
 #include <radiosity/scene/scene.hpp>
-#include <radiosity/support/parallel.hpp>
 #include <radiosity/support/random.hpp>
 
 namespace radiosity {
@@ -72,38 +72,33 @@ HALFLIGHT_INLINE MeshErrorMeter::MeshErrorMeter(const Scene& scene, const FinalG
   for (Triangle& t : triangles) { before = t.until = before + t.area * density(t); }
 
   std::vector<Sample> samples(points);
-  constexpr std::size_t batch = 512;  // points between two checks of the cancel flag
-  for (std::size_t first = 0; first < points; first += batch) {
-    if (control.cancelled()) { return; }
-    const auto measure = [&](std::size_t offset) {
-      const std::size_t i = first + offset;
-      Random random{seed, i, 0x6d657368ull};
-      const double at = (static_cast<double>(i) + random.uniform()) / static_cast<double>(points);
-      auto t = std::upper_bound(triangles.begin(), triangles.end(), at, [](double a, const Triangle& b) { return a < b.until; });
-      if (t == triangles.end()) { --t; }
-      const double root = std::sqrt(random.uniform()), v = random.uniform();
-      const glm::dvec3 chord = (1.0 - root) * t->a + root * (1.0 - v) * t->b + root * v * t->c;
-      const InputSurface& input = inputs[t->surface];
-      Sample& sample = samples[i];
-      sample.place = {light.objects().object(input.object).project(input.sheet, chord), input.object, t->surface};
-      if (light.objects().covered(sample.place.point.position, sample.place.point.normal, input.object)) { return; }
-      sample.weight = 1.0 / (all_area * density(*t));
-      if (control.viewpoint) {
-        sample.weight *= seen_share(control.viewpoint, light, sample.place) / t->share;
-        if (!(sample.weight > 0.0)) { return; }
-      }
-      const Material& material = light.material(t->surface);
-      LitRegion region = light.lit_region(std::span(&sample.place, 1));
-      const Color direct = region.irradiance(sample.place.point.position, sample.place.point.normal);
-      for (std::uint64_t half = 0; half < 2; ++half) {
-        constexpr std::uint32_t rays = 512;  // of each half; enough that their noise is smaller than that of the choice of points
-        const auto indirect = light.indirect(sample.place, rays, rays, 0.0, random.bits());
-        sample.light[half] = material.emission + material.reflectance * (direct + indirect.irradiance);
-      }
-    };
-    parallel_for(std::min(batch, points - first), threads, measure, 4);
-    control.report("mesh audit", static_cast<double>(std::min(first + batch, points)) / static_cast<double>(points));
-  }
+  const auto measure = [&](std::size_t i) {
+    Random random{seed, i, 0x6d657368ull};
+    const double at = (static_cast<double>(i) + random.uniform()) / static_cast<double>(points);
+    auto t = std::upper_bound(triangles.begin(), triangles.end(), at, [](double a, const Triangle& b) { return a < b.until; });
+    if (t == triangles.end()) { --t; }
+    const double root = std::sqrt(random.uniform()), v = random.uniform();
+    const glm::dvec3 chord = (1.0 - root) * t->a + root * (1.0 - v) * t->b + root * v * t->c;
+    const InputSurface& input = inputs[t->surface];
+    Sample& sample = samples[i];
+    sample.place = {light.objects().object(input.object).project(input.sheet, chord), input.object, t->surface};
+    if (light.objects().covered(sample.place.point.position, sample.place.point.normal, input.object)) { return; }
+    sample.weight = 1.0 / (all_area * density(*t));
+    if (control.viewpoint) {
+      sample.weight *= seen_share(control.viewpoint, light, sample.place) / t->share;
+      if (!(sample.weight > 0.0)) { return; }
+    }
+    const Material& material = light.material(t->surface);
+    LitRegion region = light.lit_region(std::span(&sample.place, 1));
+    const Color direct = region.irradiance(sample.place.point.position, sample.place.point.normal);
+    for (std::uint64_t half = 0; half < 2; ++half) {
+      constexpr std::uint32_t rays = 512;  // of each half; enough that their noise is smaller than that of the choice of points
+      const auto indirect = light.indirect(sample.place, rays, rays, 0.0, random.bits());
+      sample.light[half] = material.emission + material.reflectance * (direct + indirect.irradiance);
+    }
+  };
+  const auto report = [&](std::size_t done) { control.report("mesh audit", static_cast<double>(done) / static_cast<double>(points)); };
+  if (!parallel_in_batches(control, threads, points, {512, 4}, measure, report)) { return; }
   samples_ = std::move(samples);
   area_ = all_area;
 }

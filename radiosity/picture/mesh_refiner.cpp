@@ -33,6 +33,7 @@
 #include <radiosity/picture/reconstruct.hpp>
 #include <radiosity/picture/viewpoint.hpp>
 #include <radiosity/result/mesh.hpp>
+#include <radiosity/scene/batches.hpp>
 #include <radiosity/scene/material.hpp>
 #include <radiosity/scene/options.hpp>
 #include <radiosity/support/parallel.hpp>
@@ -176,15 +177,8 @@ HALFLIGHT_INLINE bool MeshRefiner::gather() {
     for (const Test& test : of.tests) { want(test.place); }
   }
   if (!indirect_.extend(wanted, *control_)) { return false; }
-  constexpr std::size_t batch = 4096;  // faces between two checks of the cancel flag
-  for (std::size_t first = 0; first < fresh_.size(); first += batch) {
-    if (control_->cancelled()) { return false; }
-    const auto light = [&](std::size_t k) {
-      const Face& face = fresh_[first + k];
-      cells_[face.surface][face.face.index] = light_of(face, places[first + k]);
-    };
-    parallel_for(std::min(batch, fresh_.size() - first), threads_, light, 8);
-  }
+  const auto light = [&](std::size_t k) { cells_[fresh_[k].surface][fresh_[k].face.index] = light_of(fresh_[k], places[k]); };
+  if (!parallel_in_batches(*control_, threads_, fresh_.size(), {4096, 8}, light)) { return false; }
   fresh_.clear();
   measure_outlines();
   return true;

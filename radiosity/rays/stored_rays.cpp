@@ -20,7 +20,7 @@
 #include <radiosity/hierarchy/hierarchy.hpp>
 #include <radiosity/hierarchy/patch.hpp>
 #include <radiosity/refinement/discrete_scene.hpp>
-#include <radiosity/support/parallel.hpp>
+#include <radiosity/scene/batches.hpp>
 #include <radiosity/support/random.hpp>
 #include <radiosity/support/sobol.hpp>
 #include <radiosity/visibility/leaf_locator.hpp>
@@ -142,17 +142,9 @@ HALFLIGHT_INLINE void cast_from(const DiscreteScene& scene, const LeafLocator& l
 HALFLIGHT_INLINE StoredRays cast_rays(const DiscreteScene& scene, const LeafLocator& locator, const std::vector<std::uint32_t>& counts) {
   StoredRays rays{counts, scene.budget.arrays};
   const std::vector<std::uint64_t> keys = detail::keys_of(scene.hierarchy);
-  constexpr std::size_t batch = 1 << 12;  // nodes between two looks at the cancel flag
-  for (std::size_t first = 0; first < counts.size() && !scene.control.cancelled(); first += batch) {
-    const std::size_t last = std::min(first + batch, counts.size());
-    parallel_for(
-        last - first, scene.threads,
-        [&](std::size_t k) {
-          const auto i = static_cast<std::uint32_t>(first + k);
-          if (counts[i] > 0) { detail::cast_from(scene, locator, i, keys[i], rays.of(i)); }
-        },
-        16);
-  }
+  parallel_in_batches(scene.control, scene.threads, counts.size(), {1 << 12, 16}, [&](std::size_t i) {
+    if (counts[i] > 0) { detail::cast_from(scene, locator, static_cast<std::uint32_t>(i), keys[i], rays.of(i)); }
+  });
   return rays;
 }
 

@@ -15,6 +15,7 @@
 #include <radiosity/hierarchy/links.hpp>
 #include <radiosity/links/evaluate.hpp>
 #include <radiosity/refinement/discrete_scene.hpp>
+#include <radiosity/scene/batches.hpp>
 #include <radiosity/support/parallel.hpp>
 
 namespace radiosity {
@@ -25,13 +26,12 @@ namespace radiosity {
 template <class Set>
 void set_gradients_at(const DiscreteScene& scene, Links& links, const std::vector<char>& marked, const std::vector<char>& leaf,
                       const Set& set) {
-  constexpr std::size_t batch = 1 << 15;
   const std::vector<double>& area = scene.exposure.area;
   std::vector<std::size_t> touched;
   std::vector<Doubt> doubts;
-  for (std::size_t first = 0; first < links.size() && !scene.control.cancelled(); first += batch) {
+  in_batches(scene.control, links.size(), 1 << 15, [&](std::size_t first, std::size_t last) {
     touched.clear();
-    for (std::size_t k = first; k < std::min(links.size(), first + batch); ++k) {
+    for (std::size_t k = first; k < last; ++k) {
       const Link& link = links[k];
       if ((marked[link.p] != 0 || marked[link.q] != 0) && leaf[link.p] != 0 && leaf[link.q] != 0) { touched.push_back(k); }
     }
@@ -44,7 +44,7 @@ void set_gradients_at(const DiscreteScene& scene, Links& links, const std::vecto
       doubts[k].q = static_cast<float>(static_cast<double>(link.exchange) * light.q.rest / area[link.q]);
     });
     for (std::size_t k = 0; k < touched.size(); ++k) { set(touched[k], doubts[k]); }
-  }
+  });
 }
 
 // Scales the links as if they had been evaluated with the current areas, which for curved leaves are sums over their children. `before`:
