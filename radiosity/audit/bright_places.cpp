@@ -23,6 +23,7 @@
 
 #include <radiosity/direct/lamp_photons.hpp>
 #include <radiosity/geometry/photon_grid.hpp>
+#include <radiosity/support/draw.hpp>
 #include <radiosity/support/random.hpp>
 #include <radiosity/support/sobol.hpp>
 
@@ -133,7 +134,7 @@ HALFLIGHT_INLINE PhotonGrid BrightPlaces::sent_on(std::span<const Reflected> lig
   const Sobol4 sequence{9};
   for (std::uint32_t i = 0; i < use.photons; ++i) {
     const std::array<double, 4> u = sequence(i);
-    const auto k = static_cast<std::size_t>(std::upper_bound(until.begin(), until.end() - 1, u[0] * power) - until.begin());
+    const std::size_t k = drawn_index(until, u[0] * power);
     const std::uint32_t first = places_[k].first, count = places_[k].last - first;
     const Landing& from = light[first + std::min(static_cast<std::uint32_t>(u[3] * count), count - 1)].from;
     const auto landed = meet(from.at, cosine_direction(from.at.normal, u[1], u[2]), from.object, from.sheet);

@@ -18,6 +18,7 @@
 #include <radiosity/hierarchy/hierarchy.hpp>
 #include <radiosity/hierarchy/patch.hpp>
 #include <radiosity/refinement/discrete_scene.hpp>
+#include <radiosity/support/draw.hpp>
 #include <radiosity/support/parallel.hpp>
 #include <radiosity/support/random.hpp>
 #include <radiosity/visibility/leaf_locator.hpp>
@@ -52,10 +53,7 @@ struct LeafArea {
     until.push_back((until.empty() ? 0.0 : until.back()) + area);
   }
   // The leaf at the fraction `part`, in [0, 1), of the cumulative area.
-  [[nodiscard]] std::uint32_t at(double part) const {
-    const auto found = static_cast<std::size_t>(std::upper_bound(until.begin(), until.end(), part * until.back()) - until.begin());
-    return leaves[std::min(found, leaves.size() - 1)];
-  }
+  [[nodiscard]] std::uint32_t at(double part) const { return leaves[drawn_index(until, part * until.back())]; }
 };
 
 struct RayEnd {

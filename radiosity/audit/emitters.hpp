@@ -42,6 +42,7 @@
 #include <radiosity/geometry/photon_grid.hpp>
 #include <radiosity/hierarchy/surface.hpp>
 #include <radiosity/scene/material.hpp>
+#include <radiosity/support/draw.hpp>
 #include <radiosity/support/random.hpp>
 
 namespace radiosity {
@@ -153,9 +154,8 @@ std::optional<Emitters::Sample> Emitters::sample(const glm::dvec3& x, const glm:
   const Shape& shape = shapes_[nodes_[index].first];
   glm::dvec3 w{0.0};
   if (shape.flat()) {
-    const double root = std::sqrt(u);
     const auto& [a, b, c] = shape.corner;
-    w = (1.0 - root) * (a - x) + root * (1.0 - v) * (b - x) + root * v * (c - x);
+    w = triangle_point(triangle_weights(u, v), a - x, b - x, c - x);
   } else {
     const glm::dvec3 d = shape.centre - x;
     const double r2 = glm::dot(d, d);

@@ -13,6 +13,7 @@
 #include <raycast/inline.hpp>
 
 #include <radiosity/scene/material.hpp>
+#include <radiosity/support/draw.hpp>
 #include <radiosity/support/random.hpp>
 
 namespace radiosity {
@@ -52,8 +53,7 @@ HALFLIGHT_INLINE PixelDraw::Pixel PixelDraw::draw(std::size_t i, std::uint32_t s
     return weighed(x, place(i / side, height_));
   }
   const double at = (static_cast<double>(i - strata) + random.uniform()) / static_cast<double>(strata) * until_.back();
-  const auto found = std::upper_bound(until_.begin(), until_.end(), at);
-  const auto index = std::min(static_cast<std::size_t>(found - until_.begin()), order_.size() - 1);
+  const std::size_t index = drawn_index(until_, at);
   return weighed(order_[index] % width_, order_[index] / width_);
 }
 

@@ -24,6 +24,7 @@
 #include <radiosity/oracle/lit_faces.hpp>
 #include <radiosity/refinement/discrete_scene.hpp>
 #include <radiosity/scene/material.hpp>
+#include <radiosity/support/draw.hpp>
 #include <radiosity/support/parallel.hpp>
 #include <radiosity/support/random.hpp>
 
@@ -55,15 +56,12 @@ class FacePoints {
   };
   // The point at which the cumulative density reaches `share` of the total.
   [[nodiscard]] Point point(const DiscreteScene& scene, double share, Random& random) const {
-    auto t = std::upper_bound(triangles_.begin(), triangles_.end(), share * total(), [](double a, const auto& b) { return a < b.until; });
-    if (t == triangles_.end()) { --t; }
-    const double root = std::sqrt(random.uniform());
-    const double v = random.uniform();
-    const Node& node = scene.hierarchy[t->node];
-    const raycast::SurfacePoint at =
-        scene.objects.object(node.object)
-            .project(scene.inputs[node.surface].sheet, (1.0 - root) * t->a + root * (1.0 - v) * t->b + root * v * t->c);
-    return {at, t->node, scene.objects.covered(at.position, at.normal, node.object)};
+    const Triangle& t = drawn(triangles_, share * total());
+    const double u = random.uniform();
+    const glm::dvec3 chord = triangle_point(triangle_weights(u, random.uniform()), t.a, t.b, t.c);
+    const Node& node = scene.hierarchy[t.node];
+    const raycast::SurfacePoint at = scene.objects.object(node.object).project(scene.inputs[node.surface].sheet, chord);
+    return {at, t.node, scene.objects.covered(at.position, at.normal, node.object)};
   }
 
  private:

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <radiosity/audit/surface_error.hpp>
 
-#include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -27,6 +25,7 @@
 #include <radiosity/scene/material.hpp>
 #include <radiosity/scene/options.hpp>
 #include <radiosity/scene/scene.hpp>
+#include <radiosity/support/draw.hpp>
 #include <radiosity/support/random.hpp>
 #include <radiosity/support/sobol.hpp>
 #include <radiosity/visibility/exposure.hpp>
@@ -94,23 +93,21 @@ HALFLIGHT_INLINE bool SurfaceErrorMeter::measure(std::uint64_t points, std::uint
 
 HALFLIGHT_INLINE std::optional<SurfaceErrorMeter::Spot> SurfaceErrorMeter::spot(Random& random, double from, double width) const {
   const double at = from + width * random.uniform();
-  auto triangle = std::upper_bound(triangles_.begin(), triangles_.end(), at, [](double a, const Triangle& t) { return a < t.until; });
-  if (triangle == triangles_.end()) { --triangle; }
-  const MeshFace& face = mesh_->faces[triangle->face];
-  const double root = std::sqrt(random.uniform());
-  const double v = random.uniform();
-  const glm::dvec3 weight{1.0 - root, root * (1.0 - v), root * v};
-  const glm::uvec3 corners{face.first_corner, triangle->first, triangle->second};
+  const Triangle& triangle = drawn(triangles_, at);
+  const MeshFace& face = mesh_->faces[triangle.face];
+  const double u = random.uniform();
+  const glm::dvec3 weight = triangle_weights(u, random.uniform());
+  const glm::uvec3 corners{face.first_corner, triangle.first, triangle.second};
   glm::dvec3 chord{0.0};
   for (int k = 0; k < 3; ++k) { chord += weight[k] * mesh_->positions[mesh_->corners[corners[k]].vertex]; }
   const InputSurface& input = inputs_[face.surface];
   if (!(exposure_->area[face.node] > 0.0)) { return std::nullopt; }
   const raycast::SurfacePoint point = objects_->object(input.object).project(input.sheet, chord);
   // Near the edge of a thin blade the nearest surface point may lie on the other side of the blade, which has leaves of its own.
-  if (!(glm::dot(point.normal, outward(*triangle)) > 0.0)) { return std::nullopt; }
+  if (!(glm::dot(point.normal, outward(triangle)) > 0.0)) { return std::nullopt; }
   // A leaf that counts as exposed may still have a buried corner (exposure.hpp); paths from there start inside another object.
   if (objects_->covered(point.position, point.normal, input.object)) { return std::nullopt; }
-  return Spot{&*triangle, weight, point};
+  return Spot{&triangle, weight, point};
 }
 
 HALFLIGHT_INLINE std::uint64_t SurfaceErrorMeter::aim(const std::vector<Surface>& boundaries, unsigned threads) {

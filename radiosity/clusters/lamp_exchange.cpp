@@ -21,6 +21,7 @@
 #include <radiosity/hierarchy/hierarchy.hpp>
 #include <radiosity/hierarchy/links.hpp>
 #include <radiosity/hierarchy/patch.hpp>
+#include <radiosity/support/draw.hpp>
 #include <radiosity/support/random.hpp>
 #include <radiosity/visibility/occlusion.hpp>
 #include <radiosity/visibility/visibility.hpp>
@@ -157,8 +158,7 @@ HALFLIGHT_INLINE void LampExchange::see(Result& result, std::span<const Point> p
     std::array<double, 16> weights{};
     for (std::uint32_t i = 0; i < 16; ++i) {
       const double at = (i + random.uniform()) / 16.0 * until.back();
-      const auto k = std::min<std::size_t>(static_cast<std::size_t>(std::upper_bound(until.begin(), until.end(), at) - until.begin()),
-                                           points.size() - 1);
+      const std::size_t k = drawn_index(until, at);
       const std::uint32_t face = points[k].face;
       const glm::dvec3 y = draw_exposed(end(face), static_cast<std::uint32_t>(random.bits() & 15u), random);
       const glm::dvec3 x = draw_exposed(ground, (i * 5u ^ shift) % 16u, random);

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -24,6 +23,7 @@
 #include <radiosity/geometry/photon_grid.hpp>
 #include <radiosity/hierarchy/surface.hpp>
 #include <radiosity/scene/material.hpp>
+#include <radiosity/support/draw.hpp>
 #include <radiosity/support/random.hpp>
 #include <radiosity/support/sobol.hpp>
 
@@ -89,12 +89,10 @@ HALFLIGHT_INLINE std::vector<LampPhoton> lamp_photons(const std::vector<Surface>
   for (std::uint32_t i = 0; i < count; ++i) {
     const std::array<double, 4> u = sequence(i);
     const double at = u[0] * until;
-    const auto& triangle = *std::upper_bound(triangles.begin(), triangles.end() - 1, at,
-                                             [](double value, const detail::ShiningTriangle& t) { return value < t.until; });
+    const detail::ShiningTriangle& triangle = drawn(triangles, at);
     const double own = probability(triangle);
-    const double root = std::sqrt(std::clamp((triangle.until - at) / own, 0.0, 1.0));
     const auto& [a, b, c] = triangle.corner;
-    const glm::dvec3 chord = (1.0 - root) * a + root * (1.0 - u[3]) * b + root * u[3] * c;
+    const glm::dvec3 chord = triangle_point(triangle_weights(std::clamp((triangle.until - at) / own, 0.0, 1.0), u[3]), a, b, c);
     const raycast::SurfacePoint from = triangle.of->object->project(triangle.sheet, chord);
     const auto landed = meet(from, cosine_direction(from.normal, u[1], u[2]), triangle.object, triangle.sheet);
     if (landed) { photons.push_back({*landed, source(triangle), triangle.power / own}); }

@@ -17,6 +17,7 @@
 #include <raycast/tolerances.hpp>
 
 #include <radiosity/direct/facets.hpp>
+#include <radiosity/support/draw.hpp>
 #include <radiosity/support/sobol.hpp>
 
 namespace radiosity {
@@ -45,8 +46,7 @@ HALFLIGHT_INLINE std::vector<LampSample> lamp_samples(const Facets& facets, std:
   for (std::uint32_t k = 0; k < count; ++k) {
     const std::array<double, 4> u = sequence(k);
     const double at = u[0] * total;
-    const auto i = std::min<std::size_t>(static_cast<std::size_t>(std::upper_bound(until.begin(), until.end(), at) - until.begin()),
-                                         triangles.size() - 1);
+    const std::size_t i = drawn_index(until, at);
     const double before = i > 0 ? until[i - 1] : 0.0;
     const double root = std::sqrt(std::clamp((at - before) / (until[i] - before), 0.0, 1.0));
     const Triangle& t = triangles[i];

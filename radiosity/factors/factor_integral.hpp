@@ -22,6 +22,7 @@
 #include <glm/vec3.hpp>
 
 #include <radiosity/hierarchy/patch.hpp>
+#include <radiosity/support/draw.hpp>
 #include <radiosity/support/sobol.hpp>
 
 namespace radiosity {
@@ -177,8 +178,7 @@ class Integral {
     double square = 0.0;
     for (std::uint32_t i = 0; i < points; ++i) {
       const std::array<double, 4> x = sequence(i);
-      const auto at = std::upper_bound(cumulative.begin(), cumulative.end(), x[0] * light) - cumulative.begin();
-      const auto k = std::min(static_cast<std::size_t>(at), elements_.size() - 1);
+      const std::size_t k = drawn_index(cumulative, x[0] * light);
       Element& e = elements_[k];
       const Quad part = corners(e);
       const double area = part.area_element(0.5, 0.5, normal_);

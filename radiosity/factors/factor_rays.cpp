@@ -20,6 +20,7 @@
 #include <raycast/spans.hpp>
 #include <raycast/transform.hpp>
 
+#include <radiosity/support/draw.hpp>
 #include <radiosity/support/parallel.hpp>
 #include <radiosity/support/random.hpp>
 #include <radiosity/support/sobol.hpp>
@@ -110,9 +111,7 @@ HALFLIGHT_INLINE RayCounter::Mean RayCounter::mean_of(const std::array<double, s
 HALFLIGHT_INLINE void RayCounter::cast(std::size_t s, const std::array<double, 4>& u, RayCounts& counts) const {
   if (!source_.facets.empty()) {
     const double at = u[0] * cumulative_.back();
-    const auto index = static_cast<std::size_t>(
-        std::min<std::ptrdiff_t>(std::upper_bound(cumulative_.begin(), cumulative_.end(), at) - cumulative_.begin(),
-                                 static_cast<std::ptrdiff_t>(cumulative_.size()) - 1));
+    const std::size_t index = drawn_index(cumulative_, at);
     const Facet& facet = source_.facets[index];
     const double rest = at - (index > 0 ? cumulative_[index - 1] : 0.0);
     const glm::dvec3 x = point_of(facet, rest, u[1]);

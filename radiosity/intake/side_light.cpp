@@ -21,6 +21,7 @@
 #include <raycast/line_query.hpp>
 #include <raycast/ray.hpp>
 
+#include <radiosity/support/draw.hpp>
 #include <radiosity/support/random.hpp>
 
 namespace radiosity::intake {
@@ -79,8 +80,7 @@ HALFLIGHT_INLINE glm::dvec3 SideLight::point_of(std::uint32_t face, double u, do
       if (at < 0.0) { break; }
     }
   }
-  const double s = std::sqrt(u);
-  return (1.0 - s) * p[corner[0]] + s * (1.0 - v) * p[corner[1]] + s * v * p[corner[2]];
+  return triangle_point(triangle_weights(u, v), p[corner[0]], p[corner[1]], p[corner[2]]);
 }
 
 HALFLIGHT_INLINE std::uint32_t SideLight::nearest_point(std::uint32_t side, const glm::dvec3& place) const {

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <iterator>
 #include <numbers>
 #include <utility>
 #include <vector>
@@ -21,6 +20,7 @@
 #include <radiosity/hierarchy/hierarchy.hpp>
 #include <radiosity/rays/stored_rays.hpp>
 #include <radiosity/scene/material.hpp>
+#include <radiosity/support/draw.hpp>
 #include <radiosity/support/parallel.hpp>
 #include <radiosity/support/random.hpp>
 #include <radiosity/support/sobol.hpp>
@@ -83,8 +83,7 @@ HALFLIGHT_INLINE Color light_of_lamps(const DiscreteScene& scene, const ListLamp
       std::array<double, 4> u = sequence(first + k);
       // One coordinate chooses the lamp; its position within the lamp's share is reused as a coordinate on the lamp.
       const double at = u[2] * lamps.power;
-      const auto l = static_cast<std::size_t>(std::distance(
-          lamps.up_to.begin(), std::min(std::upper_bound(lamps.up_to.begin(), lamps.up_to.end(), at), std::prev(lamps.up_to.end()))));
+      const std::size_t l = drawn_index(lamps.up_to, at);
       const double before = l > 0 ? lamps.up_to[l - 1] : 0.0, own = lamps.up_to[l] - before;
       const std::uint32_t lamp = lamps.leaves[l];
       const raycast::SurfacePoint x = point_on(scene, leaf, u[0], u[1], random);

@@ -31,6 +31,7 @@
 #include <radiosity/picture/met.hpp>
 #include <radiosity/picture/spot_photons.hpp>
 #include <radiosity/scene/material.hpp>
+#include <radiosity/support/draw.hpp>
 #include <radiosity/support/random.hpp>
 #include <radiosity/support/sobol.hpp>
 
@@ -186,20 +187,18 @@ HALFLIGHT_INLINE void BrightSpots::make_groups() {
 }
 
 HALFLIGHT_INLINE BrightSpots::Chosen BrightSpots::group_at(std::span<const double> until, double number) {
-  const auto g = static_cast<std::size_t>(std::upper_bound(until.begin(), until.end() - 1, number) - until.begin());
+  const std::size_t g = drawn_index(until, number);
   const double before = g > 0 ? until[g - 1] : 0.0;
   return {g, (number - before) / (until[g] - before)};
 }
 
 HALFLIGHT_INLINE const BrightSpots::Spot& BrightSpots::spot_at(const Group& group, double number) const {
-  const auto first = spots_.begin() + group.first, last = spots_.begin() + group.last;
-  return *std::upper_bound(first, last - 1, number * group.power, [](double value, const Spot& s) { return value < s.until; });
+  return drawn(std::span(spots_).subspan(group.first, group.last - group.first), number * group.power);
 }
 
 HALFLIGHT_INLINE BrightSpots::Target BrightSpots::point_of(const Spot& spot, double u, double v) const {
   const auto& [a, b, c] = lookup_->triangle(lookup_->surface(spot.object, spot.sheet), spot.triangle).position;
-  const double root = std::sqrt(u);
-  const glm::dvec3 chord = (1.0 - root) * a + root * (1.0 - v) * b + root * v * c;
+  const glm::dvec3 chord = triangle_point(triangle_weights(u, v), a, b, c);
   return {lookup_->objects().object(spot.object).project(spot.sheet, chord), spot.object, spot.sheet};
 }
 

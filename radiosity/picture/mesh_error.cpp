@@ -2,7 +2,6 @@
 #include <radiosity/picture/mesh_error.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -25,13 +24,16 @@
 #include <radiosity/scene/material.hpp>
 #include <radiosity/scene/options.hpp>
 #include <radiosity/scene/scene.hpp>
+#include <radiosity/support/draw.hpp>
 #include <radiosity/support/random.hpp>
 
 namespace radiosity {
 
-HALFLIGHT_INLINE MeshErrorMeter::MeshErrorMeter(const Scene& scene, const FinalGather& light, const Mesh& mesh, std::uint64_t points,
-                                                std::uint64_t seed, unsigned threads, const Control& control)
-    : scene_{&scene}, light_{&light} {
+namespace detail {
+
+// The triangles of a mesh that reflect light, for drawing points: half of them uniformly by area, half by the squared reflected light. Where
+// only a picture counts, areas are those in the picture.
+struct ReflectingTriangles {
   struct Triangle {
     std::uint32_t surface;
     glm::dvec3 a{0.0}, b{0.0}, c{0.0};  // in the frame
@@ -40,9 +42,18 @@ HALFLIGHT_INLINE MeshErrorMeter::MeshErrorMeter(const Scene& scene, const FinalG
     double light;                       // squared reflected light
     double until;                       // cumulative share of the points
   };
-  const std::vector<InputSurface> inputs = surfaces(scene);
+
+  ReflectingTriangles(const FinalGather& light, const Mesh& mesh, const std::optional<Viewpoint>& viewpoint);
+  [[nodiscard]] double density(const Triangle& t) const {
+    return all_light > 0.0 ? 0.5 / all_area + 0.5 * t.light / all_light : 1.0 / all_area;
+  }
+
   std::vector<Triangle> triangles;
   double all_area = 0.0, all_light = 0.0;
+};
+
+HALFLIGHT_INLINE ReflectingTriangles::ReflectingTriangles(const FinalGather& light, const Mesh& mesh,
+                                                          const std::optional<Viewpoint>& viewpoint) {
   for (const MeshFace& face : mesh.faces) {
     const auto corner = [&](std::uint32_t k) {
       return (mesh.positions[mesh.corners[face.first_corner + k].vertex] - light.frame().centre) * light.frame().scale;
@@ -54,10 +65,10 @@ HALFLIGHT_INLINE MeshErrorMeter::MeshErrorMeter(const Scene& scene, const FinalG
       Triangle t{face.surface, corner(0), corner(k), corner(k + 1), 1.0, 0.0, glm::dot(reflected, reflected), 0.0};
       const glm::dvec3 doubled = glm::cross(t.b - t.a, t.c - t.a);
       t.area = 0.5 * glm::length(doubled);
-      if (control.viewpoint && t.area > 0.0) {  // upper estimate of its share of the picture
+      if (viewpoint && t.area > 0.0) {  // upper estimate of its share of the picture
         t.share = 0.0;
         for (const glm::dvec3& p : {t.a, t.b, t.c, (t.a + t.b + t.c) / 3.0}) {
-          t.share = std::max(t.share, control.viewpoint->share(light.frame().to_scene(p), doubled / (2.0 * t.area)));
+          t.share = std::max(t.share, viewpoint->share(light.frame().to_scene(p), doubled / (2.0 * t.area)));
         }
         t.area *= t.share;
       }
@@ -66,29 +77,34 @@ HALFLIGHT_INLINE MeshErrorMeter::MeshErrorMeter(const Scene& scene, const FinalG
       triangles.push_back(t);
     }
   }
-  if (!(all_area > 0.0)) { return; }
-  const auto density = [&](const Triangle& t) { return all_light > 0.0 ? 0.5 / all_area + 0.5 * t.light / all_light : 1.0 / all_area; };
   double before = 0.0;
   for (Triangle& t : triangles) { before = t.until = before + t.area * density(t); }
+}
 
+}  // namespace detail
+
+HALFLIGHT_INLINE MeshErrorMeter::MeshErrorMeter(const Scene& scene, const FinalGather& light, const Mesh& mesh, std::uint64_t points,
+                                                std::uint64_t seed, unsigned threads, const Control& control)
+    : scene_{&scene}, light_{&light} {
+  const std::vector<InputSurface> inputs = surfaces(scene);
+  const detail::ReflectingTriangles from{light, mesh, control.viewpoint};
+  if (!(from.all_area > 0.0)) { return; }
   std::vector<Sample> samples(points);
   const auto measure = [&](std::size_t i) {
     Random random{seed, i, 0x6d657368ull};
-    const double at = (static_cast<double>(i) + random.uniform()) / static_cast<double>(points);
-    auto t = std::upper_bound(triangles.begin(), triangles.end(), at, [](double a, const Triangle& b) { return a < b.until; });
-    if (t == triangles.end()) { --t; }
-    const double root = std::sqrt(random.uniform()), v = random.uniform();
-    const glm::dvec3 chord = (1.0 - root) * t->a + root * (1.0 - v) * t->b + root * v * t->c;
-    const InputSurface& input = inputs[t->surface];
+    const auto& t = drawn(from.triangles, (static_cast<double>(i) + random.uniform()) / static_cast<double>(points));
+    const double u = random.uniform();
+    const glm::dvec3 chord = triangle_point(triangle_weights(u, random.uniform()), t.a, t.b, t.c);
+    const InputSurface& input = inputs[t.surface];
     Sample& sample = samples[i];
-    sample.place = {light.objects().object(input.object).project(input.sheet, chord), input.object, t->surface};
+    sample.place = {light.objects().object(input.object).project(input.sheet, chord), input.object, t.surface};
     if (light.objects().covered(sample.place.point.position, sample.place.point.normal, input.object)) { return; }
-    sample.weight = 1.0 / (all_area * density(*t));
+    sample.weight = 1.0 / (from.all_area * from.density(t));
     if (control.viewpoint) {
-      sample.weight *= seen_share(control.viewpoint, light, sample.place) / t->share;
+      sample.weight *= seen_share(control.viewpoint, light, sample.place) / t.share;
       if (!(sample.weight > 0.0)) { return; }
     }
-    const Material& material = light.material(t->surface);
+    const Material& material = light.material(t.surface);
     LitRegion region = light.lit_region(std::span(&sample.place, 1));
     const Color direct = region.irradiance(sample.place.point.position, sample.place.point.normal);
     for (std::uint64_t half = 0; half < 2; ++half) {
@@ -100,7 +116,7 @@ HALFLIGHT_INLINE MeshErrorMeter::MeshErrorMeter(const Scene& scene, const FinalG
   const auto report = [&](std::size_t done) { control.report("mesh audit", static_cast<double>(done) / static_cast<double>(points)); };
   if (!parallel_in_batches(control, threads, points, {512, 4}, measure, report)) { return; }
   samples_ = std::move(samples);
-  area_ = all_area;
+  area_ = from.all_area;
 }
 
 HALFLIGHT_INLINE double MeshErrorMeter::square() const {

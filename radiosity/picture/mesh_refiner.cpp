@@ -36,6 +36,7 @@
 #include <radiosity/scene/batches.hpp>
 #include <radiosity/scene/material.hpp>
 #include <radiosity/scene/options.hpp>
+#include <radiosity/support/draw.hpp>
 #include <radiosity/support/parallel.hpp>
 #include <radiosity/support/random.hpp>
 
@@ -113,9 +114,9 @@ HALFLIGHT_INLINE MeshRefiner::Places MeshRefiner::places_of(const Face& face) co
   for (std::size_t k = 1; k <= triangles; ++k) {
     const double area = 0.5 * glm::length(glm::cross(corners[k] - corners[0], corners[k + 1] - corners[0]));
     for (std::size_t i = 0; i < on_each; ++i) {
-      const double root = std::sqrt((static_cast<double>(i) + random.uniform()) / static_cast<double>(on_each)), v = random.uniform();
-      const glm::dvec3 weight{1.0 - root, root * (1.0 - v), root * v};
-      const auto place = exposed_at(weight.x * corners[0] + weight.y * corners[k] + weight.z * corners[k + 1]);
+      const double u = (static_cast<double>(i) + random.uniform()) / static_cast<double>(on_each);
+      const glm::dvec3 weight = triangle_weights(u, random.uniform());
+      const auto place = exposed_at(triangle_point(weight, corners[0], corners[k], corners[k + 1]));
       if (!place) { continue; }
       const double share = seen_share(control_->viewpoint, *light_, *place);
       places.tests.push_back({*place, static_cast<std::uint32_t>(k), weight, share * area / static_cast<double>(on_each)});
