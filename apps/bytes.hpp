@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -39,18 +40,37 @@ void put(std::string& out, const glm::vec<n, Number>& vector) {
 }
 
 // Base64 as in RFC 4648.
+inline constexpr std::string_view base64_digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+
 [[nodiscard]] inline std::string base64(std::string_view bytes) {
-  static constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::string text;
   text.reserve((bytes.size() + 2) / 3 * 4);
   for (std::size_t i = 0; i < bytes.size(); i += 3) {
     const auto byte = [&](std::size_t k) { return i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0U; };
     const unsigned bits = (byte(0) << 16U) | (byte(1) << 8U) | byte(2);
     for (std::size_t k = 0; k < 4; ++k) {
-      text += i + k <= bytes.size() ? digits[(bits >> (18U - 6U * static_cast<unsigned>(k))) & 63U] : '=';
+      text += i + k <= bytes.size() ? base64_digits[(bits >> (18U - 6U * static_cast<unsigned>(k))) & 63U] : '=';
     }
   }
   return text;
+}
+
+// Nothing if the text has other characters. Signs '=' at the end need not be there.
+[[nodiscard]] inline std::optional<std::string> from_base64(std::string_view text) {
+  std::string bytes;
+  bytes.reserve(text.size() / 4 * 3);
+  std::uint32_t bits = 0;
+  unsigned count = 0;
+  while (!text.empty() && text.back() == '=') { text.remove_suffix(1); }
+  for (const char c : text) {
+    const std::size_t value = base64_digits.find(c);
+    if (value == base64_digits.npos) { return std::nullopt; }
+    bits = bits << 6U | static_cast<std::uint32_t>(value);
+    if ((count += 6) < 8) { continue; }
+    count -= 8;
+    bytes += static_cast<char>(static_cast<unsigned char>(bits >> count & 0xffU));
+  }
+  return bytes;
 }
 
 // 64-bit FNV-1a (Fowler, Noll and Vo 1991): detects accidental damage of files, not manipulation.
@@ -75,6 +95,12 @@ class Checksum {
  private:
   std::uint64_t state_ = 0xcbf29ce484222325ull;
 };
+
+[[nodiscard]] inline std::string checksum_of(std::string_view bytes) {
+  Checksum sum;
+  sum.add(bytes);
+  return sum.text();
+}
 
 // The header of a binary, little-endian PLY file (Turk 1994). The numbers of the elements follow it.
 struct PlyElement {

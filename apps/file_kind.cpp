@@ -48,9 +48,6 @@ constexpr std::array<std::pair<std::string_view, const char*>, 20> signatures = 
     {"{"sv, "data (JSON)"},
 }};
 
-// Removes the byte order mark with which some programs begin UTF-8.
-std::string_view without_mark(std::string_view text) { return text.substr(text.starts_with("\xef\xbb\xbf") ? 3 : 0); }
-
 // Splits the first lines that are not empty into words, without comments.
 class FirstLines {
  public:
@@ -76,11 +73,6 @@ class FirstLines {
  private:
   std::string_view text_;
 };
-
-template <class List>
-bool contains(const List& list, std::string_view word) {
-  return std::find(list.begin(), list.end(), word) != list.end();
-}
 
 bool begins_script(const std::array<std::string_view, 3>& words) {
   const std::string_view command = words[1] == "=" ? words[2] : words[0];

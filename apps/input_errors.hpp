@@ -59,6 +59,12 @@ struct ErrorReport {
   return text;
 }
 
+// Only the first error, without the end of its line.
+[[nodiscard]] inline std::string first_error(const ErrorReport& report, std::string_view name) {
+  const std::string all = to_text(report, name);
+  return all.substr(0, all.find('\n'));
+}
+
 // The errors of one file while it is read. Contains at most max_errors; then full() is true and reading stops.
 class Errors {
  public:

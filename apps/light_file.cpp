@@ -46,14 +46,15 @@ struct SourceFields {
   }
 };
 
+bool all_finite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
 bool usable(const ModelOptions& options) {
-  const auto finite = [](const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); };
   const auto& camera = options.camera;
   return options.reflectance >= 0.0 && options.reflectance <= most_reflectance && options.metres > 0.0 && std::isfinite(options.metres) &&
          (!options.up || *options.up <= UpAxis::z) &&
          std::all_of(options.lamps.begin(), options.lamps.end(),
                      [](const Lamp& lamp) { return lamp.exitance >= 0.0 && std::isfinite(lamp.exitance); }) &&
-         (!camera || (finite(camera->eye) && finite(camera->forward) && finite(camera->up) &&
+         (!camera || (all_finite(camera->eye) && all_finite(camera->forward) && all_finite(camera->up) &&
                       glm::length(glm::cross(camera->forward, camera->up)) > 0.0));
 }
 
@@ -87,12 +88,6 @@ namespace {
 
 constexpr std::string_view light_opening = "halflight light 2\n";
 constexpr std::size_t digits = 16;  // of a checksum
-
-std::string checksum_of_bytes(std::string_view bytes) {
-  Checksum sum;
-  sum.add(bytes);
-  return sum.text();
-}
 
 // A checksum of everything that the light depends on: colours, and shapes by the corners of coarse approximations.
 std::string key_of(const radiosity::Scene& scene, const radiosity::Frame& frame) {
@@ -132,8 +127,6 @@ struct MeshFields {
 
 constexpr std::size_t bytes_of_head = 3 * 8, bytes_of_position = 3 * 8, bytes_of_corner = 4 + 3 * 8 + 3 * 4, bytes_of_face = 3 * 4 + 3 * 8;
 
-bool all_finite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
-
 // Are all indices within range and all numbers finite?
 bool consistent(const radiosity::Mesh& mesh, std::size_t surfaces) {
   for (const glm::dvec3& p : mesh.positions) {
@@ -165,7 +158,7 @@ std::optional<LightParts> parts_of(std::string_view bytes, std::string& reason) 
   const std::size_t before = light_opening.size() + digits + 1;
   constexpr std::size_t bytes_of_length = 8;
   if (bytes.size() < before + bytes_of_length + bytes_of_head + digits) { return std::nullopt; }
-  if (checksum_of_bytes(bytes.substr(0, bytes.size() - digits)) != bytes.substr(bytes.size() - digits)) { return std::nullopt; }
+  if (checksum_of(bytes.substr(0, bytes.size() - digits)) != bytes.substr(bytes.size() - digits)) { return std::nullopt; }
   const std::string_view rest = bytes.substr(before + bytes_of_length, bytes.size() - before - bytes_of_length - digits);
   const std::uint64_t source = bits_at(bytes, before, bytes_of_length);
   if (source > rest.size() - bytes_of_head) { return std::nullopt; }
@@ -183,7 +176,7 @@ std::string to_light_file(const radiosity::Mesh& mesh, const radiosity::Frame& f
   for (const glm::dvec3& p : mesh.positions) { out(p); }
   for (const radiosity::MeshCorner& corner : mesh.corners) { out(corner); }
   for (const radiosity::MeshFace& face : mesh.faces) { out(face); }
-  return out.bytes + checksum_of_bytes(out.bytes);
+  return out.bytes + checksum_of(out.bytes);
 }
 
 std::optional<SceneSource> source_in_light_file(std::string_view bytes, std::string& reason) {

@@ -24,6 +24,17 @@ template <class Number>
   return code == std::errc() && end == text.data() + text.size() ? std::optional(number) : std::nullopt;
 }
 
+// Is the word one of the list?
+template <class List>
+[[nodiscard]] bool contains(const List& list, std::string_view word) {
+  return std::find(list.begin(), list.end(), word) != list.end();
+}
+
+// "1 face", "2 faces". `several`: the plural, if it is not `one` with an s.
+[[nodiscard]] inline std::string counted(std::size_t count, const std::string& one, const std::string& several = {}) {
+  return std::to_string(count) + " " + (count == 1 ? one : several.empty() ? one + "s" : several);
+}
+
 // "a, b, c"; empty items are left out.
 template <class List>
 [[nodiscard]] std::string joined(const List& items, std::string_view between = ", ") {
@@ -81,6 +92,11 @@ template <class Vector>
 }
 [[nodiscard]] inline std::string right(const std::string& text, std::size_t width, std::size_t gap = 2) {
   return std::string(std::max(width, text.size() + gap) - text.size(), ' ') + text;
+}
+
+// The text without the byte order mark with which some programs begin UTF-8.
+[[nodiscard]] constexpr std::string_view without_mark(std::string_view text) {
+  return text.substr(text.starts_with("\xef\xbb\xbf") ? 3 : 0);
 }
 
 // Length in bytes of the character that begins at text[at]; 0 if it is invalid: overlong forms, surrogates, code points beyond U+10FFFF.

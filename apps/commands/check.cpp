@@ -72,10 +72,6 @@ constexpr const char* repair_titles[] = {"repeated corners taken away", "faces d
 static_assert(std::size(lessons) == 1 + static_cast<std::size_t>(brep::DefectKind::unused_vertex));
 static_assert(std::size(repair_titles) == 1 + static_cast<std::size_t>(brep::RepairKind::dropped_vertex));
 
-std::string counted(std::size_t n, std::string one, const char* plural = nullptr) {
-  return std::to_string(n) + " " + (n == 1 ? one : plural != nullptr ? std::string(plural) : one + "s");
-}
-
 // "468 quadrilaterals, 32 triangles", the most frequent first.
 std::string sizes(const brep::Statistics& s) {
   std::vector<std::pair<std::size_t, std::size_t>> list(s.face_sizes.begin(), s.face_sizes.end());

@@ -29,9 +29,10 @@ const char* sign(Figure::Bound kind) { return kind == Figure::Bound::at_most ? "
 
 // How many scenes were solved, warned about and refused.
 std::string done(const Findings& findings) {
-  const auto count = [](std::size_t n, const char* what) { return n == 0 ? std::string{} : std::to_string(n) + " " + what; };
-  return joined(std::vector{count(findings.solved(), findings.solved() == 1 ? "scene solved" : "scenes solved"),
-                            count(findings.warnings().size(), "warned"), count(findings.refusals().size(), "refused")});
+  const auto count = [](std::size_t n, const char* one, const char* several) { return n == 0 ? std::string{} : counted(n, one, several); };
+  return joined(std::vector{count(findings.solved(), "scene solved", "scenes solved"),
+                            count(findings.warnings().size(), "warned", "warned"),
+                            count(findings.refusals().size(), "refused", "refused")});
 }
 
 std::string to_text(const Case& which, const Findings& findings) {
@@ -60,7 +61,7 @@ void write(JsonWriter& json, const Case& which, const Findings& findings) {
 std::vector<const Case*> choose(const std::vector<std::string>& names, bool& known) {
   std::vector<const Case*> chosen;
   for (const Case& c : stress::cases()) {
-    if (names.empty() || std::find(names.begin(), names.end(), c.name) != names.end()) { chosen.push_back(&c); }
+    if (names.empty() || contains(names, c.name)) { chosen.push_back(&c); }
   }
   known = true;
   for (const std::string& name : names) {

@@ -56,7 +56,7 @@ std::string machine() {
     }
   }
   const unsigned cores = std::max(1u, std::thread::hardware_concurrency());
-  return name + ", " + std::to_string(cores) + (cores == 1 ? " core" : " cores");
+  return name + ", " + counted(cores, "core");
 }
 
 std::string compiler() {

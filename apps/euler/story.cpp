@@ -6,11 +6,11 @@
 #include <utility>
 
 #include <brep/circulators.hpp>
-#include <brep/euler_script_words.hpp>
 #include <brep/euler_table.hpp>
 #include <brep/handles.hpp>
 #include <brep/validate_explain.hpp>
 
+#include "apps/text.hpp"
 #include "apps/words.hpp"
 
 namespace apps::euler {
@@ -168,7 +168,7 @@ std::string walk(const Records& r, brep::Element of) {
     out += " " + name('h', h) + (face ? " (from " + name('v', r.halfedges[h].vertex) : " (in " + name('f', r.halfedges[h].face)) + ")";
     h = face ? r.halfedges[h].next : r.halfedges[h ^ 1U].next;
   } while (h != anchors[of.index]);
-  return out + "; " + std::to_string(steps) + (face ? (steps == 1 ? " edge" : " edges") : (steps == 1 ? " edge leaves" : " edges leave"));
+  return out + "; " + (face ? counted(steps, "edge") : counted(steps, "edge leaves", "edges leave"));
 }
 
 std::vector<std::string> statement_words() {
@@ -187,7 +187,7 @@ std::string meant(std::string_view line, const std::vector<std::string>& known) 
   const std::size_t begin = line.find_first_not_of(" \t", equals == line.npos ? 0 : equals + 1);
   if (begin == line.npos) { return {}; }
   const std::string_view word = line.substr(begin, line.find_first_of(" \t\r(", begin) - begin);
-  if (std::find(known.begin(), known.end(), word) != known.end()) { return {}; }
+  if (contains(known, word)) { return {}; }
   return suggestion(word, known);
 }
 

@@ -44,9 +44,7 @@ Fault compare(const std::string& text, const std::vector<Answer>& answers) {
     const std::size_t equals = line.find('=');
     if (equals == line.npos) { return at + "expected `name = number`"; }
     const std::string name = stripped(line.substr(0, equals)), value = stripped(line.substr(equals + 1));
-    if (std::find(names.begin(), names.end(), name) == names.end()) {
-      return at + "nobody asked for '" + name + "'" + suggestion(name, names);
-    }
+    if (!contains(names, name)) { return at + "nobody asked for '" + name + "'" + suggestion(name, names); }
     if (value.empty()) { continue; }
     const auto x = number_in<double>(value);
     if (!x) { return at + "'" + value + "' is no number"; }

@@ -16,24 +16,6 @@ namespace {
 
 constexpr std::size_t most_zeros = 1'000'000;  // of an accessor without data
 
-std::optional<std::string> from_base64(std::string_view text) {
-  std::string bytes;
-  bytes.reserve(text.size() / 4 * 3);
-  std::uint32_t bits = 0;
-  int count = 0;
-  while (!text.empty() && text.back() == '=') { text.remove_suffix(1); }
-  for (const char c : text) {
-    constexpr std::string_view letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    const std::size_t value = letters.find(c);
-    if (value == std::string_view::npos) { return std::nullopt; }
-    bits = bits << 6U | static_cast<std::uint32_t>(value);
-    if ((count += 6) < 8) { continue; }
-    count -= 8;
-    bytes += static_cast<char>(static_cast<unsigned char>(bits >> static_cast<unsigned>(count) & 0xffU));
-  }
-  return bytes;
-}
-
 // Decodes "data:image/png;base64,AAAA"; nothing if the URI has another form.
 std::optional<std::string> data_of(std::string_view uri) {
   const std::size_t comma = uri.find(";base64,");

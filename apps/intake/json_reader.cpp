@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "apps/mesh_file/reading.hpp"
+#include "apps/text.hpp"
 
 namespace apps {
 
@@ -16,7 +17,7 @@ class JsonParser {
   JsonParser(std::string_view text, JsonFault& fault) : text_(text), fault_(fault) {}
 
   std::optional<JsonValue> run() {
-    if (text_.substr(0, 3) == "\xef\xbb\xbf") { at_ = 3; }
+    at_ = text_.size() - without_mark(text_).size();
     JsonValue value;
     if (!read(value, 0)) { return std::nullopt; }
     skip();

@@ -210,8 +210,7 @@ class Reader {
       Errors inner;
       read(*text, outer * transforms.copy(i), depth + 1, inner);
       if (inner.count() > 0) {
-        const std::string first = to_text(inner.take(), name);
-        errors.add(line.place(1), "in " + first.substr(0, first.find('\n')));
+        errors.add(line.place(1), "in " + first_error(inner.take(), name));
         refused_.insert(name);
         break;
       }

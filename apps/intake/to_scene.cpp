@@ -32,8 +32,6 @@ glm::dmat3 to_metres(UpAxis up, double metres) {
   return metres * turn;
 }
 
-std::string counted(std::size_t count, const std::string& what) { return std::to_string(count) + " " + what + (count == 1 ? "" : "s"); }
-
 class SceneMaker {
  public:
   SceneMaker(Model model, const ModelOptions& options) : model_(std::move(model)), options_(options) {}
@@ -112,12 +110,12 @@ class SceneMaker {
       two_sided_.push_back(given.two_sided ? 1 : 0);
     }
     if (open > 0) {
-      note((open == 1 ? "1 material has no reflectance: " : std::to_string(open) + " materials have no reflectance: ") +
-           formatted("%g", options_.reflectance) + " (--reflectance)");
+      note(counted(open, "material has", "materials have") + " no reflectance: " + formatted("%g", options_.reflectance) +
+           " (--reflectance)");
     }
     if (bright > 0) {
-      note((bright == 1 ? "1 material reflects" : std::to_string(bright) + " materials reflect") + " more than " +
-           formatted("%g", most_reflectance) + ", as no surface does: lowered to that");
+      note(counted(bright, "material reflects", "materials reflect") + " more than " + formatted("%g", most_reflectance) +
+           ", as no surface does: lowered to that");
     }
   }
 
@@ -125,7 +123,7 @@ class SceneMaker {
   [[nodiscard]] std::vector<std::string_view> names() const {
     std::vector<std::string_view> list;
     for (const radiosity::Material& material : file_.scene.materials) {
-      if (list.size() < 1000 && std::find(list.begin(), list.end(), material.name) == list.end()) { list.push_back(material.name); }
+      if (list.size() < 1000 && !contains(list, material.name)) { list.push_back(material.name); }
     }
     return list;
   }
@@ -200,8 +198,7 @@ class SceneMaker {
       file_.scene.objects.push_back({"light", std::move(sphere.object), {}, {material}});
       file_.origins.push_back({"light", {}});
     }
-    note(std::to_string(model_.lights.size()) +
-         (model_.lights.size() == 1 ? " light has no surface: a lamp" : " lights have no surface: lamps") + " of " +
+    note(counted(model_.lights.size(), "light has no surface: a lamp", "lights have no surface: lamps") + " of " +
          radiosity::length_text(2.0 * radius) + " across");
   }
 

@@ -11,6 +11,7 @@
 #include <brep/builder_input.hpp>
 
 #include "apps/mesh_file/reading.hpp"
+#include "apps/text.hpp"
 
 namespace apps::mesh_file {
 namespace {
@@ -21,11 +22,6 @@ constexpr std::array<std::string_view, 14> silent{"vn",  "vp",       "s",       
 // Points, lines, curves and free-form surfaces: geometry that is not read.
 constexpr std::array<std::string_view, 21> unread{"p",    "l",    "curv", "curv2", "surf", "cstype", "deg", "bmat", "step", "parm", "trim",
                                                   "hole", "scrv", "sp",   "end",   "con",  "bzp",    "cdc", "cdp",  "res",  "call"};
-
-template <std::size_t N>
-bool contains(const std::array<std::string_view, N>& list, std::string_view word) {
-  return std::find(list.begin(), list.end(), word) != list.end();
-}
 
 struct ForwardReference {
   std::string_view word;  // its place is looked up only if there is no such vertex
@@ -52,16 +48,15 @@ class ObjReader {
       out_.mesh.notes.push_back(lines_of(word, number) + " passed over: points, lines, curves and free-form surfaces are not read");
     }
     if (foreign_ > 0) {
-      out_.mesh.notes.push_back(
-          (foreign_ == 1 ? "1 line that is no statement" : std::to_string(foreign_) + " lines that are no statements") +
-          " of OBJ passed over, the first " + first_foreign_);
+      out_.mesh.notes.push_back(counted(foreign_, "line that is no statement", "lines that are no statements") +
+                                " of OBJ passed over, the first " + first_foreign_);
     }
   }
 
  private:
   void fail(std::size_t word, std::string sentence) { out_.error(lines_.place(word), std::move(sentence)); }
   static std::string lines_of(std::string_view word, std::size_t number) {
-    return std::to_string(number) + (number == 1 ? " line '" : " lines '") + std::string(word) + "'";
+    return counted(number, "line") + " '" + std::string(word) + "'";
   }
   // Reports that there are no faces, and what the file contains instead.
   void no_faces() {
@@ -202,7 +197,7 @@ class ObjReader {
       named.push_back(lines_.rest());
     }
     for (std::string& name : named) {
-      if (list.size() < 100 && std::find(list.begin(), list.end(), name) == list.end()) { list.push_back(std::move(name)); }
+      if (list.size() < 100 && !contains(list, name)) { list.push_back(std::move(name)); }
     }
   }
 

@@ -13,8 +13,6 @@ namespace {
 
 constexpr bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
 
-constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
-
 // The column of `at`, counted from 1. Continuation bytes of UTF-8 characters are not counted.
 std::uint32_t column(const char* start, const char* at) {
   return static_cast<std::uint32_t>(1 + std::count_if(start, at, [](char c) { return (static_cast<unsigned char>(c) & 0xc0U) != 0x80U; }));
@@ -28,9 +26,8 @@ std::optional<T> parse(std::string_view word) {
 
 }  // namespace
 
-Lines::Lines(std::string_view text, bool comments, bool continued) : text_(text), comments_(comments), continued_(continued) {
-  if (text_.substr(0, 3) == byte_order_mark) { at_ = 3; }
-}
+Lines::Lines(std::string_view text, bool comments, bool continued)
+    : text_(text), comments_(comments), continued_(continued), at_(text.size() - without_mark(text).size()) {}
 
 bool Lines::next() {
   words_.clear();
@@ -90,7 +87,7 @@ Place Lines::place(std::size_t word) const {
 }
 
 Place Lines::place_in_text(std::string_view word) const {
-  const char* const begin = text_.data() + (text_.substr(0, 3) == byte_order_mark ? 3 : 0);
+  const char* const begin = without_mark(text_).data();
   const char* start = begin;
   std::uint32_t line = 1;
   for (const char* at = begin; at != word.data(); ++at) {
@@ -160,7 +157,7 @@ std::string expected_vertex(std::uint64_t count) {
 
 std::string no_faces_in(std::uint64_t vertices, const std::string& others) {
   if (vertices == 0 && others.empty()) { return "the file has no faces"; }
-  const std::string points = std::to_string(vertices) + (vertices == 1 ? " vertex" : " vertices");
+  const std::string points = counted(vertices, "vertex", "vertices");
   return "the file has no faces, but " + points + (others.empty() ? ": points have" : " and " + others + ": points and lines have") +
          " no surface that light could fall on";
 }

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "apps/text.hpp"
+
 namespace apps::scene_file {
 namespace {
 
@@ -62,7 +64,5 @@ bool is_repeatable(std::string_view word) {
 }
 
 bool is_operand(std::string_view word) { return word == "use" || kind_of(word) != nullptr; }
-
-bool contains(Words words, std::string_view word) { return std::find(words.begin(), words.end(), word) != words.end(); }
 
 }  // namespace apps::scene_file

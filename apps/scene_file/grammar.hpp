@@ -66,6 +66,4 @@ inline constexpr std::array<std::string_view, 3> use_words = {"move", "rotate", 
 // Can the word begin an operand?
 [[nodiscard]] bool is_operand(std::string_view word);
 
-[[nodiscard]] bool contains(Words words, std::string_view word);
-
 }  // namespace apps::scene_file

@@ -23,10 +23,7 @@ std::size_t character_length(std::string_view text, std::size_t at) {
 
 }  // namespace
 
-Lexer::Lexer(std::string_view text, Errors& errors) : text_(text), errors_(errors) {
-  constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
-  if (text_.substr(0, 3) == byte_order_mark) { text_.remove_prefix(3); }
-}
+Lexer::Lexer(std::string_view text, Errors& errors) : text_(without_mark(text)), errors_(errors) {}
 
 // Advances by one character; ends the text if it is invalid.
 void Lexer::advance() {

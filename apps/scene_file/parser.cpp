@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "apps/text.hpp"
 #include "apps/words.hpp"
 
 namespace apps::scene_file {

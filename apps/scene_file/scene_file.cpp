@@ -12,6 +12,7 @@
 #include "apps/scene_file/build.hpp"
 #include "apps/scene_file/grammar.hpp"
 #include "apps/scene_file/parser.hpp"
+#include "apps/text.hpp"
 
 namespace apps {
 
@@ -28,8 +29,7 @@ SceneResult parse_scene(std::string_view text, const SideFile& side_file, const 
 
 bool begins_camera(std::string_view text) {
   const std::string_view word = text.substr(0, text.find(' '));
-  return word.size() < text.size() &&
-         std::find(scene_file::camera_words.begin(), scene_file::camera_words.end(), word) != scene_file::camera_words.end();
+  return word.size() < text.size() && contains(scene_file::camera_words, word);
 }
 
 std::optional<radiosity::Camera> parse_camera(std::string_view clauses, std::string& fault) {

@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include "apps/scene_file/parser.hpp"
+#include "apps/text.hpp"
 
 namespace apps::scene_file {
 namespace {
@@ -112,7 +113,7 @@ bool Parser::no_more_numbers(std::string_view clause, std::string_view takes) {
 }
 
 bool Parser::numbers(const Token& keyword, std::span<double> out) {
-  const std::string takes = out.size() == 1 ? "1 number" : std::to_string(out.size()) + " numbers";
+  const std::string takes = counted(out.size(), "number");
   bool sound = true;
   for (std::size_t i = 0; i < out.size(); ++i) {
     if (!at(Token::Kind::number)) {

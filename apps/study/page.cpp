@@ -11,6 +11,7 @@
 #include "apps/study/error_picture.hpp"
 #include "apps/study/plot.hpp"
 #include "apps/study/verdicts.hpp"
+#include "apps/text.hpp"
 #include "embedded/study.hpp"
 
 namespace study {
@@ -56,7 +57,7 @@ class Page {
     std::vector<std::string> names;
     for (const SceneStudy& s : study_.scenes) {
       for (const Method& m : s.methods) {
-        if (std::find(names.begin(), names.end(), m.name) == names.end()) { names.push_back(m.name); }
+        if (!apps::contains(names, m.name)) { names.push_back(m.name); }
       }
     }
     text_ += "<div class=\"scroll wide\"><h2 class=\"first\">Overview</h2>\n<table><caption><b>Table " + std::to_string(++tables_) +

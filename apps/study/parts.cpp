@@ -73,17 +73,13 @@ std::string part_file(const PartNumber& number) {
 std::string to_bytes(const Part& part) {
   apps::ArchiveWriter<PartFields> out;
   out(part);
-  apps::Checksum sum;
-  sum.add(std::string_view(out.bytes));
-  return std::string(magic) + sum.text() + "\n" + out.bytes;
+  return std::string(magic) + apps::checksum_of(out.bytes) + "\n" + out.bytes;
 }
 
 std::optional<Part> read_part(std::string_view bytes) {
   if (!bytes.starts_with(magic) || bytes.size() < magic.size() + 17) { return std::nullopt; }
   const std::string_view sum = bytes.substr(magic.size(), 16), body = bytes.substr(magic.size() + 17);
-  apps::Checksum checksum;
-  checksum.add(body);
-  if (checksum.text() != sum) { return std::nullopt; }
+  if (apps::checksum_of(body) != sum) { return std::nullopt; }
   apps::ArchiveReader<PartFields> in(body);
   Part part;
   in(part);
@@ -117,7 +113,7 @@ Merged merge(std::vector<Part> parts) {
   Study whole = parts.front().study;
   whole.scenes.clear();
   for (const Part& part : parts) {
-    if (std::find(machines.begin(), machines.end(), part.study.machine) == machines.end()) { machines.push_back(part.study.machine); }
+    if (!apps::contains(machines, part.study.machine)) { machines.push_back(part.study.machine); }
   }
   whole.machine = apps::joined(machines, "; ");
   for (std::size_t scene = 0; scene < parts.front().scene_count; ++scene) {

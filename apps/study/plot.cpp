@@ -9,6 +9,7 @@
 
 #include "apps/study/log_axis.hpp"
 #include "apps/study/numbers.hpp"
+#include "apps/text.hpp"
 
 namespace study {
 namespace {
@@ -236,7 +237,7 @@ std::size_t style_index(const Study& study, const std::string& method) {
   std::vector<std::string> names;
   for (const SceneStudy& scene : study.scenes) {
     for (const Method& m : scene.methods) {
-      if (std::find(names.begin(), names.end(), m.name) == names.end()) { names.push_back(m.name); }
+      if (!apps::contains(names, m.name)) { names.push_back(m.name); }
     }
   }
   return static_cast<std::size_t>(std::find(names.begin(), names.end(), method) - names.begin());

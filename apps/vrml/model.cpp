@@ -10,7 +10,6 @@
 #include <utility>
 #include <vector>
 
-#include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/mat3x3.hpp>
 
@@ -23,6 +22,7 @@
 #include "apps/graph_walk.hpp"
 #include "apps/intake/model.hpp"
 #include "apps/mesh_file/reading.hpp"
+#include "apps/text.hpp"
 #include "apps/vrml/scene_graph.hpp"
 
 namespace apps::vrml {
@@ -84,7 +84,7 @@ class ModelMaker {
       made_face_set(node, elevation_grid(node), state);
     } else if (node.type == "Extrusion") {
       made_face_set(node, extrusion(node), state);
-    } else if (std::find(surfaceless.begin(), surfaceless.end(), node.type) != surfaceless.end()) {
+    } else if (contains(surfaceless, node.type)) {
       notes_.add("lines, points and texts have no surface: left out", at_line_of(node));
     }
   }
@@ -110,8 +110,7 @@ class ModelMaker {
     root->type = "Separator";
     if (auto child = parse(*text, errors, notes_)) { root->children.push_back(std::move(child)); }
     if (errors.count() > 0) {
-      std::string first = to_text(errors.take(), name);
-      notes_.add("left out " + first.substr(0, first.find('\n')), at_line_of(node));
+      notes_.add("left out " + first_error(errors.take(), name), at_line_of(node));
       return nullptr;
     }
     std::vector<const Node*> open{root.get()};
