@@ -175,6 +175,12 @@ class GltfReader {
     return gltf_skin((*root_)["skins"][skin.index().value_or(nowhere)], *data_, primitive, in_scene_, vertices, fault);
   }
 
+  // The indices of the triangle that begins at index i of a list (mode 4), a strip (5) or a fan (6).
+  static std::array<std::size_t, 3> triangle(std::size_t mode, std::size_t i, bool mirrored) {
+    const bool turned = (mode == 5 && i % 2 == 1) != mirrored;
+    return {mode == 6 ? 0 : i, turned ? i + 2 : i + 1, turned ? i + 1 : i + 2};
+  }
+
   void triangles(const JsonValue& primitive, const JsonValue& skin, const glm::dmat4& matrix, std::uint32_t group) {
     const std::string place = "in " + mesh_file::shown(model_.groups[group]);
     const std::size_t mode = primitive["mode"] ? primitive["mode"].index().value_or(nowhere) : 4;
@@ -217,12 +223,9 @@ class GltfReader {
     const std::vector<double> paint = gltf_vertex_colors(*root_, *data_, primitive, vertices, notes_, place);
     const std::size_t step = mode == 4 ? 3 : 1;
     for (std::size_t i = 0; i + 2 < count; i += step) {
-      const bool odd = mode == 5 && i % 2 == 1;
-      const std::size_t a = mode == 6 ? 0 : i, b = odd ? i + 2 : i + 1, c = odd ? i + 1 : i + 2;
-      std::array<std::uint32_t, 3> corners{};
-      for (std::size_t k = 0; k < 3; ++k) {
-        corners[k] = first + static_cast<std::uint32_t>(vertex(k == 0 ? a : (k == 1) != mirrored ? b : c));
-      }
+      const auto [a, b, c] = triangle(mode, i, mirrored);
+      const auto at = [&](std::size_t index) { return first + static_cast<std::uint32_t>(vertex(index)); };
+      const std::array<std::uint32_t, 3> corners{at(a), at(b), at(c)};
       model_.polygon(corners, static_cast<std::uint32_t>(material.value_or(default_material_)), group);
       if (!places.empty()) {
         colors_.lies_at(model_, std::array{places[corners[0] - first], places[corners[1] - first], places[corners[2] - first]});

@@ -21,68 +21,93 @@ const JsonValue& color_texture(const JsonValue& material) {
   return base ? base : material["emissiveTexture"];
 }
 
-}  // namespace
+// Do both textures use the same texture coordinates?
+bool lie_alike(const JsonValue& a, const JsonValue& b) {
+  const auto plain = [](const JsonValue& texture) { return texture["texCoord"].index().value_or(0) == 0 && !texture["extensions"]; };
+  return &a == &b || (plain(a) && plain(b));
+}
 
-std::vector<ModelMaterial> read_gltf_materials(const JsonValue& root, GltfData& data, PolygonColors& colors, Notes& notes) {
-  std::vector<ModelMaterial> materials;
-  Pictures<std::size_t> pictures;
-  // Null if it cannot be read, which is noted.
-  const auto picture_of = [&](const JsonValue& texture, const std::string& factor, const std::string& place) {
-    const auto image = root["textures"][texture["index"].index().value_or(~std::size_t{0})]["source"].index();
-    std::shared_ptr<const Picture> picture;
-    if (image) {
-      picture = pictures.of(*image, [&] {
-        const auto bytes = data.picture(*image);
-        return bytes ? Picture::read(*bytes) : nullptr;
-      });
-    }
-    if (!picture) { notes.add("textures are not read: the " + factor + " factor stands for the picture", place); }
-    return picture;
-  };
-  // Do both textures use the same texture coordinates?
-  const auto lie_alike = [](const JsonValue& a, const JsonValue& b) {
-    const auto plain = [](const JsonValue& texture) { return texture["texCoord"].index().value_or(0) == 0 && !texture["extensions"]; };
-    return &a == &b || (plain(a) && plain(b));
-  };
-  for (const JsonValue& given : root["materials"].items()) {
+class MaterialReader {
+ public:
+  MaterialReader(const JsonValue& root, GltfData& data, PolygonColors& colors, Notes& notes)
+      : root_(root), data_(data), colors_(colors), notes_(notes) {}
+
+  // The material with this number in the file.
+  ModelMaterial read(const JsonValue& given, std::uint32_t number) {
     ModelMaterial material;
     material.name = given["name"].string();
-    if (material.name.empty()) { material.name = "material" + std::to_string(materials.size()); }
-    const JsonValue &extensions = given["extensions"], &glossy = extensions["KHR_materials_pbrSpecularGlossiness"];
+    if (material.name.empty()) { material.name = "material" + std::to_string(number); }
+    const std::string place = "in " + mesh_file::shown(material.name);
+    set_reflectance(material, given, number, place);
+    set_emission(material, given, number, place);
+    if (given["extensions"]["KHR_materials_unlit"]) { notes_.add("unlit materials are taken as paint of their colour", place); }
+    if (given["extensions"]["KHR_materials_transmission"] || given["alphaMode"].string() == "BLEND") {
+      notes_.add("materials that let light through are taken as opaque", place);
+    }
+    material.two_sided = given["doubleSided"].boolean();
+    return material;
+  }
+
+ private:
+  void set_reflectance(ModelMaterial& material, const JsonValue& given, std::uint32_t number, const std::string& place) {
+    const JsonValue& glossy = given["extensions"]["KHR_materials_pbrSpecularGlossiness"];
     const JsonValue& base = glossy ? glossy : given["pbrMetallicRoughness"];
     const auto color = array_of<3>(base[glossy ? "diffuseFactor" : "baseColorFactor"]).value_or(std::array{1.0, 1.0, 1.0});
     const JsonValue& picture = base[glossy ? "diffuseTexture" : "baseColorTexture"];
-    const auto number = static_cast<std::uint32_t>(materials.size());
-    const std::string place = "in " + mesh_file::shown(material.name);
     const auto paint = picture ? picture_of(picture, "base colour", place) : nullptr;
-    colors.picture(number, PolygonColors::Of::reflectance, paint, place);
+    colors_.picture(number, PolygonColors::Of::reflectance, paint, place);
     // If the picture is not readable, a factor of 1 1 1 says nothing about the colour.
     if (!picture || paint || color != std::array{1.0, 1.0, 1.0}) {
       if (base || given["emissiveFactor"]) { material.reflectance = radiosity::Color(color[0], color[1], color[2]); }
     }
+  }
+
+  void set_emission(ModelMaterial& material, const JsonValue& given, std::uint32_t number, const std::string& place) {
     const auto emissive = array_of<3>(given["emissiveFactor"]).value_or(std::array{0.0, 0.0, 0.0});
-    const double strength = extensions["KHR_materials_emissive_strength"]["emissiveStrength"].number(1.0);
+    const double strength = given["extensions"]["KHR_materials_emissive_strength"]["emissiveStrength"].number(1.0);
     for (int i = 0; i < 3; ++i) {
       material.emission[i] = std::max(0.0, std::numbers::pi * strength * emissive[static_cast<std::size_t>(i)]);
       if (!std::isfinite(material.emission[i])) { material.emission[i] = 0.0; }
     }
-    if (const JsonValue& texture = given["emissiveTexture"]; texture && !radiosity::is_black(material.emission)) {
-      const auto glow = picture_of(texture, "emissive", place);
-      if (lie_alike(texture, color_texture(given))) {
-        colors.picture(number, PolygonColors::Of::emission, glow, place);
-      } else if (glow) {
-        notes.add("pictures on surfaces count with their mean colour", place);
-        material.emission *= glow->mean();
-      }
+    const JsonValue& texture = given["emissiveTexture"];
+    if (!texture || radiosity::is_black(material.emission)) { return; }
+    const auto glow = picture_of(texture, "emissive", place);
+    if (lie_alike(texture, color_texture(given))) {
+      colors_.picture(number, PolygonColors::Of::emission, glow, place);
+    } else if (glow) {
+      notes_.add("pictures on surfaces count with their mean colour", place);
+      material.emission *= glow->mean();
     }
-    if (extensions["KHR_materials_unlit"]) {
-      notes.add("unlit materials are taken as paint of their colour", "in " + mesh_file::shown(material.name));
+  }
+
+  // Null if it cannot be read, which is noted.
+  std::shared_ptr<const Picture> picture_of(const JsonValue& texture, const std::string& factor, const std::string& place) {
+    const auto image = root_["textures"][texture["index"].index().value_or(~std::size_t{0})]["source"].index();
+    std::shared_ptr<const Picture> picture;
+    if (image) {
+      picture = pictures_.of(*image, [&] {
+        const auto bytes = data_.picture(*image);
+        return bytes ? Picture::read(*bytes) : nullptr;
+      });
     }
-    if (extensions["KHR_materials_transmission"] || given["alphaMode"].string() == "BLEND") {
-      notes.add("materials that let light through are taken as opaque", "in " + mesh_file::shown(material.name));
-    }
-    material.two_sided = given["doubleSided"].boolean();
-    materials.push_back(std::move(material));
+    if (!picture) { notes_.add("textures are not read: the " + factor + " factor stands for the picture", place); }
+    return picture;
+  }
+
+  const JsonValue& root_;
+  GltfData& data_;
+  PolygonColors& colors_;
+  Notes& notes_;
+  Pictures<std::size_t> pictures_;
+};
+
+}  // namespace
+
+std::vector<ModelMaterial> read_gltf_materials(const JsonValue& root, GltfData& data, PolygonColors& colors, Notes& notes) {
+  std::vector<ModelMaterial> materials;
+  MaterialReader reader(root, data, colors, notes);
+  for (const JsonValue& given : root["materials"].items()) {
+    materials.push_back(reader.read(given, static_cast<std::uint32_t>(materials.size())));
   }
   return materials;
 }

@@ -57,70 +57,98 @@ std::string picture_of(const Lines& lines) {
 
 // Reads MTL, the materials of OBJ files, into the materials with the same names: Kd is the reflectance; Ke, the emitted radiance, becomes
 // the exitance pi Ke. Nothing in such a file is an error: whatever cannot be read is noted, and the material remains as it is.
-void read_obj_materials(const std::string& library, const SideFile& side_file, std::vector<ModelMaterial>& materials, PolygonColors& colors,
-                        Notes& notes) {
-  std::string fault;
-  const auto text = file_of_name(library, side_file, fault);
-  if (!text) { return notes.add("the materials in " + mesh_file::shown(library) + " are not known: it " + fault); }
-  std::unordered_map<std::string, std::size_t> index;
-  for (std::size_t i = 0; i < materials.size(); ++i) { index.emplace(materials[i].name, i); }
-  ModelMaterial unused;
-  ModelMaterial* material = &unused;
-  Pictures<std::string> pictures;
-  std::vector<ModelMaterial*> with_picture;  // for Kd; map_Kd and Kd may come in either order
-  std::vector<ModelMaterial*> glowing;       // with a picture for Ke
-  std::vector<ModelMaterial*> unseen;        // with a picture for Kd that cannot be read
-  Lines lines(*text, true, true);
-  while (lines.next()) {
-    const std::string_view word = lines.words()[0];
-    const std::string place = "at " + library + ":" + std::to_string(lines.line());
-    const bool bare = lines.words().size() < 2;
-    if (word == "newmtl") {
-      const auto found = bare ? index.end() : index.find(lines.rest());
-      material = found == index.end() ? &unused : &materials[found->second];
-    } else if (bare || material == &unused) {
-      continue;
-    } else if (word == "Kd" || word == "Ke") {
-      const auto value = color(lines);
-      if (!value) {
-        notes.add("expected one or three numbers from 0 on after " + std::string(word) + ": passed over", place);
-      } else if (word == "Kd") {
-        material->reflectance = *value;
-      } else {
-        material->emission = std::numbers::pi * *value;
-      }
-    } else if (word == "map_Kd" || word == "map_Ke") {
-      const std::string name = picture_of(lines);
-      const bool reflects = word == "map_Kd";
-      const std::shared_ptr<const Picture>& picture = pictures.of(name, [&] {
-        const auto bytes = file_of_name(name, side_file, fault);
-        if (!bytes) { notes.add("a picture on surfaces is not there: " + mesh_file::shown(name) + " " + fault, place); }
-        return bytes ? Picture::read(*bytes) : nullptr;
-      });
-      if (picture) {
-        (reflects ? with_picture : glowing).push_back(material);
-        colors.picture(static_cast<std::uint32_t>(material - materials.data()),
-                       reflects ? PolygonColors::Of::reflectance : PolygonColors::Of::emission, picture, place);
+class ObjMaterials {
+ public:
+  ObjMaterials(std::vector<ModelMaterial>& materials, PolygonColors& colors, Notes& notes, const SideFile& side_file)
+      : materials_(materials), colors_(colors), notes_(notes), side_file_(side_file) {
+    for (std::size_t i = 0; i < materials.size(); ++i) { index_.emplace(materials[i].name, i); }
+  }
+
+  void read(const std::string& library) {
+    std::string fault;
+    const auto text = file_of_name(library, side_file_, fault);
+    if (!text) { return notes_.add("the materials in " + mesh_file::shown(library) + " are not known: it " + fault); }
+    ModelMaterial* material = nullptr;  // null: one that no face has
+    Pictured pictured;
+    Lines lines(*text, true, true);
+    while (lines.next()) {
+      const std::string_view word = lines.words()[0];
+      const std::string place = "at " + library + ":" + std::to_string(lines.line());
+      const bool bare = lines.words().size() < 2;
+      if (word == "newmtl") {
+        const auto found = bare ? index_.end() : index_.find(lines.rest());
+        material = found == index_.end() ? nullptr : &materials_[found->second];
+      } else if (bare || material == nullptr) {
         continue;
+      } else if (word == "Kd" || word == "Ke") {
+        set_color(*material, lines, place);
+      } else if (word == "map_Kd" || word == "map_Ke") {
+        set_picture(*material, lines, place, pictured);
+      } else if (word == "d" || word == "Tr") {
+        const auto value = mesh_file::to_number(lines.words().back());
+        if (value && *value != (word == "d" ? 1.0 : 0.0)) { notes_.add("materials that let light through are taken as opaque", place); }
       }
-      if (reflects) { unseen.push_back(material); }
-      notes.add("textures are not read: " + std::string(reflects ? "Kd" : "Ke") + " stands for the picture", place);
-    } else if (word == "d" || word == "Tr") {
-      const auto value = mesh_file::to_number(lines.words().back());
-      if (value && *value != (word == "d" ? 1.0 : 0.0)) { notes.add("materials that let light through are taken as opaque", place); }
+    }
+    leave_to_pictures(pictured);
+  }
+
+ private:
+  // Materials with a picture for Kd that can be read, or that cannot, and with one for Ke. They are looked at in the end, because map_Kd
+  // and Kd may come in either order.
+  struct Pictured {
+    Pictures<std::string> pictures;
+    std::vector<ModelMaterial*> painted, unseen, glowing;
+  };
+
+  void set_color(ModelMaterial& material, const Lines& lines, const std::string& place) {
+    const std::string_view word = lines.words()[0];
+    const auto value = color(lines);
+    if (!value) {
+      notes_.add("expected one or three numbers from 0 on after " + std::string(word) + ": passed over", place);
+    } else if (word == "Kd") {
+      material.reflectance = *value;
+    } else {
+      material.emission = std::numbers::pi * *value;
     }
   }
+
+  void set_picture(ModelMaterial& material, const Lines& lines, const std::string& place, Pictured& pictured) {
+    const std::string name = picture_of(lines);
+    const bool reflects = lines.words()[0] == "map_Kd";
+    const std::shared_ptr<const Picture>& picture = pictured.pictures.of(name, [&] {
+      std::string fault;
+      const auto bytes = file_of_name(name, side_file_, fault);
+      if (!bytes) { notes_.add("a picture on surfaces is not there: " + mesh_file::shown(name) + " " + fault, place); }
+      return bytes ? Picture::read(*bytes) : nullptr;
+    });
+    if (picture) {
+      (reflects ? pictured.painted : pictured.glowing).push_back(&material);
+      return colors_.picture(static_cast<std::uint32_t>(&material - materials_.data()),
+                             reflects ? PolygonColors::Of::reflectance : PolygonColors::Of::emission, picture, place);
+    }
+    if (reflects) { pictured.unseen.push_back(&material); }
+    notes_.add("textures are not read: " + std::string(reflects ? "Kd" : "Ke") + " stands for the picture", place);
+  }
+
   // Programs that have no factor write a colour of 0 beside a picture.
-  for (ModelMaterial* const of : unseen) {
-    if (of->reflectance && radiosity::is_black(*of->reflectance)) { of->reflectance.reset(); }
+  static void leave_to_pictures(const Pictured& pictured) {
+    for (ModelMaterial* const of : pictured.unseen) {
+      if (of->reflectance && radiosity::is_black(*of->reflectance)) { of->reflectance.reset(); }
+    }
+    for (ModelMaterial* const of : pictured.painted) {
+      if (radiosity::is_black(of->reflectance.value_or(radiosity::Color(0.0)))) { of->reflectance = radiosity::Color(1.0); }
+    }
+    for (ModelMaterial* const of : pictured.glowing) {
+      if (radiosity::is_black(of->emission)) { of->emission = radiosity::Color(std::numbers::pi); }
+    }
   }
-  for (ModelMaterial* const of : with_picture) {
-    if (radiosity::is_black(of->reflectance.value_or(radiosity::Color(0.0)))) { of->reflectance = radiosity::Color(1.0); }
-  }
-  for (ModelMaterial* const of : glowing) {
-    if (radiosity::is_black(of->emission)) { of->emission = radiosity::Color(std::numbers::pi); }
-  }
-}
+
+  std::vector<ModelMaterial>& materials_;
+  PolygonColors& colors_;
+  Notes& notes_;
+  const SideFile& side_file_;
+  std::unordered_map<std::string, std::size_t> index_;
+};
 
 // The face's own colour, or the mean of its vertex colours, in linear light; nothing if one of these is unknown.
 std::optional<radiosity::Color> color_of(const Mesh& mesh, std::uint32_t face) {
@@ -164,7 +192,8 @@ ModelResult read(std::string_view bytes, const MeshFormat& format, const SideFil
     }
     colors.lies_at(model, places);
   }
-  for (const std::string& library : mesh.libraries) { read_obj_materials(library, side_file, model.materials, colors, notes); }
+  ObjMaterials materials(model.materials, colors, notes, side_file);
+  for (const std::string& library : mesh.libraries) { materials.read(library); }
   colors.apply(model, notes);
   model.notes = std::move(mesh.notes);
   for (std::string& note : notes.take()) { model.notes.push_back(std::move(note)); }
