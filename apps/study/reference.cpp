@@ -13,6 +13,7 @@
 #include <radiosity/hierarchy/patch.hpp>
 #include <radiosity/hierarchy/polygons.hpp>
 #include <radiosity/hierarchy/surface.hpp>
+#include <radiosity/scene/batches.hpp>
 #include <radiosity/support/parallel.hpp>
 #include <radiosity/support/random.hpp>
 #include <radiosity/support/sobol.hpp>
@@ -134,14 +135,10 @@ void trace(const radiosity::Scene& scene, const radiosity::Prepared& prepared, c
     point.radiosity = mean;
     for (int c = 0; c < 3; ++c) { point.standard_error[c] = std::sqrt(std::max(0.0, square[c] - mean[c] * mean[c]) / (sequences - 1.0)); }
   };
-  constexpr std::size_t batch = 128;
   const std::size_t count = truth.points.size();
-  for (std::size_t first = 0; first < count && !control.cancelled(); first += batch) {
-    const std::size_t size = std::min(batch, count - first);
-    radiosity::parallel_for(
-        size, radiosity::thread_count(options.threads), [&](std::size_t k) { measure(first + k); }, 8);
-    control.report("reference", static_cast<double>(first + size) / static_cast<double>(count));
-  }
+  radiosity::parallel_in_batches(control, radiosity::thread_count(options.threads), count, {128, 8}, measure, [&](std::size_t done) {
+    control.report("reference", static_cast<double>(done) / static_cast<double>(count));
+  });
 }
 
 double magnitude(const Color& c) { return std::abs(c.x) + std::abs(c.y) + std::abs(c.z); }

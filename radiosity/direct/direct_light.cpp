@@ -142,12 +142,8 @@ HALFLIGHT_INLINE void DirectLight::take_samples(Lamp& lamp, bool fine, std::uint
   if (fine) { lamp.fine = FineSamples{lamp.samples, lamp_samples(lamp.facets, lamp.ends, detail::fine_samples, seed)}; }
 }
 
-HALFLIGHT_INLINE DirectLight::DirectLight(const raycast::Scene& objects, const std::vector<Surface>& surfaces,
-                                          const std::vector<Color>& emission, const LampLimits& limits)
-    : objects_{&objects}, true_objects_{&objects}, lamp_of_(emission.size(), 0xffffffff), bodies_(objects.size()) {
-  std::vector<Candidate> candidates;
-  double total = 0.0;
-  raycast::Box dark;  // bounds of the surfaces that do not emit
+HALFLIGHT_INLINE DirectLight::Sheets DirectLight::sheets_of(const std::vector<Surface>& surfaces, const std::vector<Color>& emission) {
+  Sheets all;
   for (std::uint32_t s = 0; s < surfaces.size(); ++s) {
     std::vector<double> area(surfaces[s].object->sheet_count(), 0.0);
     for (const brep::FaceId f : brep::faces(surfaces[s].brep)) {
@@ -156,22 +152,43 @@ HALFLIGHT_INLINE DirectLight::DirectLight(const raycast::Scene& objects, const s
       const Polygon corners = corner_polygon(surfaces[s].brep, f);
       area[sheet] += glm::length(vector_area(corners));
       if (!is_black(emission[surfaces[s].first_surface + sheet])) { continue; }
-      for (const glm::dvec3& p : corners) { dark.extend(p); }
+      for (const glm::dvec3& p : corners) { all.dark.extend(p); }
     }
     for (std::uint32_t sheet = 0; sheet < area.size(); ++sheet) {
-      total += area[sheet];
+      all.area += area[sheet];
       const Color& e = emission[surfaces[s].first_surface + sheet];
-      if (!is_black(e) && area[sheet] > 0.0) { candidates.push_back({{{s, {sheet}}}, e, brightest(e), area[sheet]}); }
+      if (!is_black(e) && area[sheet] > 0.0) { all.candidates.push_back({{{s, {sheet}}}, e, brightest(e), area[sheet]}); }
     }
   }
+  return all;
+}
+
+HALFLIGHT_INLINE void DirectLight::set_tolerances(const raycast::Box& dark) {
   const double size = dark.empty() ? 1.0 : std::min(1.0, dark.diameter());
   off_surface_ *= size;
   slack_ = std::max(detail::rounding_slack, detail::least_slack * size);
-  for (std::uint32_t o = 0; o < objects.size(); ++o) {
-    const raycast::Box box = objects.object(o).bounds();
+  for (std::uint32_t o = 0; o < objects_->size(); ++o) {
+    const raycast::Box box = objects_->object(o).bounds();
     const bool apart = !dark.empty() && (glm::any(glm::greaterThan(box.lo, dark.hi)) || glm::any(glm::lessThan(box.hi, dark.lo)));  // a sun
-    if (!apart) { slack_ = std::max(slack_, 2.0 * objects.object(o).slack()); }
+    if (!apart) { slack_ = std::max(slack_, 2.0 * objects_->object(o).slack()); }
   }
+}
+
+HALFLIGHT_INLINE void DirectLight::mark_behind(Lamp& lamp) const {
+  lamp.behind.assign(true_objects_->size(), false);
+  for (std::uint32_t o = 0; o < bodies_.size() && lamp.flat; ++o) {
+    lamp.behind[o] = std::any_of(bodies_[o].facets.facets.begin(), bodies_[o].facets.facets.end(), [&](const Facets::Facet& f) {
+      return std::any_of(f.contour.begin(), f.contour.end(),
+                         [&](const glm::dvec3& p) { return lamp.facets.facets[0].height(p) < -slack_; });
+    });
+  }
+}
+
+HALFLIGHT_INLINE DirectLight::DirectLight(const raycast::Scene& objects, const std::vector<Surface>& surfaces,
+                                          const std::vector<Color>& emission, const LampLimits& limits)
+    : objects_{&objects}, true_objects_{&objects}, lamp_of_(emission.size(), 0xffffffff), bodies_(objects.size()) {
+  auto [candidates, total, dark] = sheets_of(surfaces, emission);
+  set_tolerances(dark);
   if (limits.bodies && candidates.size() > limits.most) { candidates = join_alike(candidates, objects, limits.most); }
   std::stable_sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) { return a.strength > b.strength; });
   std::vector<bool> is_fine;  // by lamp
@@ -197,17 +214,8 @@ HALFLIGHT_INLINE DirectLight::DirectLight(const raycast::Scene& objects, const s
   }
   if (lamps_.empty()) { return; }
   take_bodies(surfaces);
-  for (std::size_t k = 0; k < lamps_.size(); ++k) {
-    Lamp& lamp = lamps_[k];
-    take_samples(lamp, is_fine[k], k);
-    lamp.behind.assign(objects.size(), false);
-    const Facets::Facet& plane = lamp.facets.facets[0];
-    for (std::uint32_t o = 0; o < bodies_.size() && lamp.flat; ++o) {
-      lamp.behind[o] = std::any_of(bodies_[o].facets.facets.begin(), bodies_[o].facets.facets.end(), [&](const Facets::Facet& f) {
-        return std::any_of(f.contour.begin(), f.contour.end(), [&](const glm::dvec3& p) { return plane.height(p) < -slack_; });
-      });
-    }
-  }
+  for (std::size_t k = 0; k < lamps_.size(); ++k) { take_samples(lamps_[k], is_fine[k], k); }
+  for (Lamp& lamp : lamps_) { mark_behind(lamp); }
 }
 
 HALFLIGHT_INLINE glm::dvec3 DirectLight::lifted(std::uint32_t o, const glm::dvec3& x, const glm::dvec3& n) const {

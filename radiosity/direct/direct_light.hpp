@@ -9,7 +9,6 @@
 // curved lamp is replaced by a polyhedron of the same area whose outline is off by at most 0.2 % of its diameter.
 
 #include <array>
-#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -121,6 +120,14 @@ class DirectLight {
     Color exitance{0.0};
     double strength = 0.0, area = 0.0;
   };
+  // What the constructor needs to know of all sheets: those that emit, the area of all, and the bounds of those that do not emit.
+  struct Sheets {
+    std::vector<Candidate> candidates;
+    double area = 0.0;
+    raycast::Box dark;
+  };
+  [[nodiscard]] static Sheets sheets_of(const std::vector<Surface>& surfaces, const std::vector<Color>& emission);
+  void set_tolerances(const raycast::Box& dark);
   void take_bodies(const std::vector<Surface>& surfaces);
   // Joins candidates until there are at most `most`, if that is possible.
   [[nodiscard]] static std::vector<Candidate> join_alike(const std::vector<Candidate>& singles, const raycast::Scene& objects,
@@ -128,6 +135,7 @@ class DirectLight {
   // make_lamp leaves out the samples, which need to know which objects have stand-in meshes; take_samples adds them.
   [[nodiscard]] static Lamp make_lamp(const raycast::Scene& objects, const std::vector<Surface>& surfaces, const Candidate& candidate);
   void take_samples(Lamp& lamp, bool fine, std::uint64_t seed) const;
+  void mark_behind(Lamp& lamp) const;  // sets Lamp::behind
 
   const raycast::Scene* objects_ = nullptr;
   const raycast::Scene* true_objects_ = nullptr;  // the scene without stand-in meshes

@@ -116,6 +116,9 @@ class LitRegion {
   [[nodiscard]] const PartLight& known(std::optional<PartLight>& light, const Facets& facets, const Facets::Part& part);
   // The form factor of part p of the lamp, which must lie entirely above the horizon of x.
   [[nodiscard]] double part_above(Reach& reach, std::size_t p, const glm::dvec3& x, const glm::dvec3& n);
+  // The bodies that may lie between the region and the lamp, ascending. Nothing if that is not known and there are many objects.
+  [[nodiscard]] std::optional<std::vector<std::uint32_t>> bodies_between(const Reach& reach) const;
+  [[nodiscard]] Reach::Outline outline_of(const DirectLight::Body& convex) const;
   // Stores the possible blockers as faces and outlines; returns false if one of them is neither.
   [[nodiscard]] bool take_bodies(Reach& reach, const raycast::PatchShape& shape) const;
   // If faces and outlines are many, removes those that others hide from the whole region. For a house seen from outside these are most of

@@ -27,30 +27,60 @@
 
 namespace radiosity {
 
-HALFLIGHT_INLINE bool LitRegion::take_bodies(Reach& reach, const raycast::PatchShape& shape) const {
-  const DirectLight::Lamp& lamp = light_->lamps_[reach.lamp];
+HALFLIGHT_INLINE std::optional<std::vector<std::uint32_t>> LitRegion::bodies_between(const Reach& reach) const {
   const raycast::Scene& objects = *light_->objects_;
-  std::vector<std::uint32_t> candidates;
+  std::vector<std::uint32_t> bodies;
   constexpr std::size_t most_objects = 64;
-  if (!reach.list.known() && light_->bodies_.size() > most_objects) { return false; }
+  if (!reach.list.known() && light_->bodies_.size() > most_objects) { return std::nullopt; }
   if (reach.list.known()) {
-    for (const std::uint32_t s : reach.list.shapes()) { candidates.push_back(light_->whole(objects.object_of(s))); }
+    for (const std::uint32_t s : reach.list.shapes()) { bodies.push_back(light_->whole(objects.object_of(s))); }
   } else {  // no occluder list, but few objects: take them all
     for (std::uint32_t o = 0; o < light_->bodies_.size(); ++o) {
-      if (!objects.left_out(o)) { candidates.push_back(o); }
+      if (!objects.left_out(o)) { bodies.push_back(o); }
     }
   }
-  if (!reach.list.rooms_clear()) { candidates.insert(candidates.end(), light_->rooms_.begin(), light_->rooms_.end()); }
-  std::sort(candidates.begin(), candidates.end());
-  candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
+  if (!reach.list.rooms_clear()) { bodies.insert(bodies.end(), light_->rooms_.begin(), light_->rooms_.end()); }
+  std::sort(bodies.begin(), bodies.end());
+  bodies.erase(std::unique(bodies.begin(), bodies.end()), bodies.end());
+  return bodies;
+}
+
+HALFLIGHT_INLINE LitRegion::Reach::Outline LitRegion::outline_of(const DirectLight::Body& convex) const {
+  Reach::Outline outline;
+  outline.facets = &convex.facets;
+  const auto& facets = convex.facets.facets;
+  for (std::uint32_t f = 1; f < facets.size(); ++f) {
+    if (facets[f].height(centre_) > facets[outline.nearest].height(centre_)) { outline.nearest = f; }
+  }
+  const auto side = [&](std::uint32_t f) {  // 1: the whole region is in front of the facet, -1: behind it
+    const double height = facets[f].height(centre_), slack = light_->slack_;
+    return height > radius_ + slack ? 1 : height < -radius_ - slack ? -1 : 0;
+  };
+  for (const Facets::Edge& edge : convex.facets.edges) {
+    const int left = side(edge.left);
+    if (left != 0 && edge.right != Facets::none && side(edge.right) == left) { continue; }
+    outline.corners.push_back(edge.a);
+    outline.corners.push_back(edge.b);
+  }
+  const auto before = [](const glm::dvec3& a, const glm::dvec3& b) { return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z; };
+  std::sort(outline.corners.begin(), outline.corners.end(), before);
+  outline.corners.erase(std::unique(outline.corners.begin(), outline.corners.end()), outline.corners.end());
+  for (const glm::dvec3& p : outline.corners) { outline.centre += p / static_cast<double>(outline.corners.size()); }
+  for (const glm::dvec3& p : outline.corners) { outline.radius = std::max(outline.radius, glm::length(p - outline.centre)); }
+  return outline;
+}
+
+HALFLIGHT_INLINE bool LitRegion::take_bodies(Reach& reach, const raycast::PatchShape& shape) const {
+  const DirectLight::Lamp& lamp = light_->lamps_[reach.lamp];
+  const std::optional<std::vector<std::uint32_t>> bodies = bodies_between(reach);
+  if (!bodies) { return false; }
   const double slack = light_->slack_;
-  // The shaft needs all points of the region, which the contour of a region with a bulge does not bound; then all candidates are kept.
+  // The shaft needs all points of the region, which the contour of a region with a bulge does not bound; then all bodies are kept.
   std::vector<Shaft> shaft;
   if (shape.bulge == 0.0) { shaft.emplace_back(shape.contour, lamp.corners, slack + lift_); }
-  const auto misses = [&](std::span<const glm::dvec3> corners) { return !shaft.empty() && shaft[0].misses(corners); };
   constexpr std::size_t most_faces = 128, most_of_stand_ins = 64;  // with more faces segments cost less
   bool all = true;
-  for (const std::uint32_t o : candidates) {
+  for (const std::uint32_t o : *bodies) {
     const DirectLight::Body& body = light_->bodies_[o];
     if (body.convex && o == owner_) { continue; }
     if (body.facets.empty()) {
@@ -58,32 +88,7 @@ HALFLIGHT_INLINE bool LitRegion::take_bodies(Reach& reach, const raycast::PatchS
       continue;
     }
     if (body.convex && body.closed && !lamp.behind[o]) {
-      if (shaft.empty() || !shaft[0].misses(body.bounds)) {
-        Reach::Outline outline;
-        outline.facets = &body.facets;
-        const auto& facets = body.facets.facets;
-        for (std::uint32_t f = 1; f < facets.size(); ++f) {
-          if (facets[f].height(centre_) > facets[outline.nearest].height(centre_)) { outline.nearest = f; }
-        }
-        const auto side = [&](std::uint32_t f) {  // 1: the whole region is in front of the facet, -1: behind it
-          const double height = facets[f].height(centre_);
-          return height > radius_ + slack ? 1 : height < -radius_ - slack ? -1 : 0;
-        };
-        for (const Facets::Edge& edge : body.facets.edges) {
-          const int left = side(edge.left);
-          if (left != 0 && edge.right != Facets::none && side(edge.right) == left) { continue; }
-          outline.corners.push_back(edge.a);
-          outline.corners.push_back(edge.b);
-        }
-        const auto before = [](const glm::dvec3& a, const glm::dvec3& b) {
-          return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z;
-        };
-        std::sort(outline.corners.begin(), outline.corners.end(), before);
-        outline.corners.erase(std::unique(outline.corners.begin(), outline.corners.end()), outline.corners.end());
-        for (const glm::dvec3& p : outline.corners) { outline.centre += p / static_cast<double>(outline.corners.size()); }
-        for (const glm::dvec3& p : outline.corners) { outline.radius = std::max(outline.radius, glm::length(p - outline.centre)); }
-        reach.outlines.push_back(std::move(outline));
-      }
+      if (shaft.empty() || !shaft[0].misses(body.bounds)) { reach.outlines.push_back(outline_of(body)); }
       continue;
     }
     if (!body.exact && (body.convex ? body.closed : !(body.lift > 0.0))) {
@@ -94,7 +99,7 @@ HALFLIGHT_INLINE bool LitRegion::take_bodies(Reach& reach, const raycast::PatchS
     for (const Facets::Facet& facet : body.facets.facets) {
       // A back face of a closed body: its front faces hide as much.
       if (body.closed && facet.height(centre_) <= slack - radius_) { continue; }
-      if (misses(facet.contour)) { continue; }
+      if (!shaft.empty() && shaft[0].misses(facet.contour)) { continue; }
       reach.faces.push_back({facet.contour, facet.normal});
     }
     if (reach.faces.size() > (body.exact ? most_faces : most_of_stand_ins)) {

@@ -51,6 +51,24 @@ inline constexpr double smooth_normals = 0.999;             // least cosine betw
 inline constexpr double least_ball = 0.5, most_ball = 1.5;  // limits of the radius of an indirect point, relative to the side of the face
 inline constexpr double least_cell = 1e-8;                  // relative to the total area: smaller faces are not split
 
+// Sets the colour of each marked half-edge to the mean of the others of its face; without others, to that of the face's node.
+HALFLIGHT_INLINE void colour_from_face(SurfaceBRep& brep, const std::vector<char>& marked, const std::vector<Color>& of_node) {
+  for (const brep::FaceId f : brep::faces(brep)) {
+    if (brep.data(f).node == no_node) { continue; }
+    Color sum{0.0};
+    double count = 0.0;
+    for (const brep::HalfedgeId h : brep::halfedges_of(brep, f)) {
+      if (marked[h.index]) { continue; }
+      sum += brep.data(h).radiosity;
+      count += 1.0;
+    }
+    const Color mean = count > 0.0 ? sum / count : of_node[brep.data(f).node];
+    for (const brep::HalfedgeId h : brep::halfedges_of(brep, f)) {
+      if (marked[h.index]) { brep.data(h).radiosity = mean; }
+    }
+  }
+}
+
 }  // namespace detail
 
 HALFLIGHT_INLINE const Color* MeshRefiner::Cell::at(brep::VertexId v) const {
@@ -285,20 +303,7 @@ HALFLIGHT_INLINE void MeshRefiner::unite_colours(Surface& surface, const std::ve
       if (count > 0.0) { brep.data(h).radiosity = sum / count; }
     }
   }
-  for (const brep::FaceId f : brep::faces(brep)) {  // buried corners take the mean of the others, as in reconstruct()
-    if (brep.data(f).node == no_node) { continue; }
-    Color sum{0.0};
-    double count = 0.0;
-    for (const brep::HalfedgeId h : brep::halfedges_of(brep, f)) {
-      if (without[h.index]) { continue; }
-      sum += brep.data(h).radiosity;
-      count += 1.0;
-    }
-    const Color mean = count > 0.0 ? sum / count : leaves_->radiosity[brep.data(f).node];
-    for (const brep::HalfedgeId h : brep::halfedges_of(brep, f)) {
-      if (without[h.index]) { brep.data(h).radiosity = mean; }
-    }
-  }
+  detail::colour_from_face(brep, without, leaves_->radiosity);  // buried corners, as in reconstruct()
 }
 
 HALFLIGHT_INLINE Mesh MeshRefiner::mesh() const {
