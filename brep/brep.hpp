@@ -19,7 +19,6 @@
 // (euler_log.hpp) for a BRep that can undo. All memory comes from AllocatorT (paper 2.2, "allocator class templates"), any allocator
 // of the standard's kind, whatever its value type. Algorithms are free functions on any `B&`.
 
-#include <array>
 #include <cassert>
 #include <cstddef>
 #include <cstdint>

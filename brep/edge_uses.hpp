@@ -13,7 +13,6 @@
 #include <cstdint>
 #include <span>
 #include <tuple>
-#include <utility>
 #include <vector>
 
 #include <brep/builder_input.hpp>

@@ -22,7 +22,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 #include <glm/geometric.hpp>

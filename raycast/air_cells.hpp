@@ -11,7 +11,6 @@
 //
 // All coordinates are those of a compiled scene. The margin covers the rounding of points (compiled.hpp).
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>

@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 

@@ -9,7 +9,6 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <vector>
 
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>

@@ -16,7 +16,6 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <vector>
 
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>

@@ -8,7 +8,6 @@
 
 #include <glm/vec2.hpp>
 
-#include <raycast/box.hpp>
 #include <raycast/inline.hpp>
 #include <raycast/roots.hpp>
 

@@ -4,7 +4,6 @@
 // from the origin loses no precision; the root node rotates our vertical axis z to y. With a lightmap, a texture replaces COLOR_0.
 #include <array>
 #include <cmath>
-#include <cstring>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

@@ -8,7 +8,6 @@
 #include <map>
 #include <utility>
 
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 

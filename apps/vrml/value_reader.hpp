@@ -3,7 +3,6 @@
 
 // Parses values of fields, except nodes: converts tokens to numbers, strings and words, and records the first error of the file.
 
-#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>

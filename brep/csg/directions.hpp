@@ -8,7 +8,6 @@
 // order in which counter-clockwise from outside is counter-clockwise; a cross product of two directions has 215 bits.
 
 #include <cstddef>
-#include <cstdint>
 #include <utility>
 
 #include <brep/csg/work.hpp>

@@ -3,7 +3,6 @@
 
 // From a BRep to an exact solid: the leaves of a CSG tree.
 
-#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <utility>

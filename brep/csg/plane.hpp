@@ -11,7 +11,6 @@
 // canonical normal).
 
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>

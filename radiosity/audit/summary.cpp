@@ -22,7 +22,6 @@
 #include <radiosity/hierarchy/patch.hpp>
 #include <radiosity/links/evaluate.hpp>
 #include <radiosity/links/saving.hpp>
-#include <radiosity/refinement/f_refine.hpp>
 #include <radiosity/result/audit.hpp>
 #include <radiosity/scene/frame.hpp>
 #include <radiosity/scene/material.hpp>

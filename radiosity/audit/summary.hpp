@@ -9,16 +9,13 @@
 #include <radiosity/links/evaluate.hpp>
 #include <radiosity/links/saving.hpp>
 #include <radiosity/refinement/discrete_scene.hpp>
-#include <radiosity/refinement/f_refine.hpp>
+#include <radiosity/refinement/refine_result.hpp>
 #include <radiosity/result/audit.hpp>
-#include <radiosity/scene/frame.hpp>
 #include <radiosity/scene/material.hpp>
 #include <radiosity/scene/options.hpp>
-#include <radiosity/scene/scene.hpp>
 #include <radiosity/solver/transport.hpp>
 #include <radiosity/visibility/exposure.hpp>
 #include <radiosity/visibility/occlusion.hpp>
-#include <radiosity/visibility/plan.hpp>
 
 namespace radiosity {
 

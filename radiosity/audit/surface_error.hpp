@@ -21,7 +21,6 @@
 #include <radiosity/hierarchy/surface.hpp>
 #include <radiosity/result/error_estimate.hpp>
 #include <radiosity/result/mesh.hpp>
-#include <radiosity/scene/material.hpp>
 #include <radiosity/scene/options.hpp>
 #include <radiosity/scene/scene.hpp>
 #include <radiosity/support/random.hpp>

@@ -17,7 +17,6 @@
 #include <raycast/scene.hpp>
 
 #include <radiosity/audit/path_tracer.hpp>
-#include <radiosity/geometry/form_factor.hpp>
 #include <radiosity/refinement/discrete_scene.hpp>
 #include <radiosity/scene/material.hpp>
 #include <radiosity/scene/options.hpp>

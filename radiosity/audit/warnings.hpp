@@ -6,7 +6,6 @@
 // altogether, open shells (their backs are black), coordinates so far from the origin that rounding exceeds the distance at which
 // surfaces are told apart.
 
-#include <cstdint>
 #include <string>
 #include <vector>
 

@@ -19,7 +19,6 @@
 #include <glm/vec3.hpp>
 
 #include <radiosity/bake/baked_light.hpp>
-#include <radiosity/intake/intake.hpp>
 
 namespace radiosity {
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <radiosity/bake/own_rays.hpp>
 
-#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstddef>

@@ -11,12 +11,10 @@
 #include <utility>
 #include <vector>
 
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 
 #include <raycast/inline.hpp>
-#include <raycast/tolerances.hpp>
 
 #include <radiosity/camera/fragments.hpp>
 #include <radiosity/camera/indirect_points.hpp>

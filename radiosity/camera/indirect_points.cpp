@@ -8,7 +8,6 @@
 #include <glm/geometric.hpp>
 
 #include <raycast/inline.hpp>
-#include <raycast/tolerances.hpp>
 
 namespace radiosity {
 

@@ -6,7 +6,6 @@
 // limit. Points are stored by tiles of the picture. A pixel blends the points whose spheres contain it, with weights that fall to 0 at
 // their borders.
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>

@@ -14,7 +14,6 @@
 #include <glm/vec3.hpp>
 
 #include <brep/brep.hpp>
-#include <brep/handles.hpp>
 
 #include <raycast/box.hpp>
 #include <raycast/bvh.hpp>

@@ -11,8 +11,6 @@
 
 #include <glm/vec3.hpp>
 
-#include <raycast/ray.hpp>
-
 #include <radiosity/direct/facets.hpp>
 
 namespace radiosity {

@@ -2,7 +2,6 @@
 #include <radiosity/direct/light_vector.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>

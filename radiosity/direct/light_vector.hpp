@@ -10,7 +10,6 @@
 //   V(x) = r^2 (c - x) / |c - x|^3.
 
 #include <array>
-#include <cstdint>
 #include <optional>
 #include <vector>
 

@@ -2,7 +2,6 @@
 #include <radiosity/direct/lit_region.hpp>
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
 #include <cstddef>

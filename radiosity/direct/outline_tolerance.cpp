@@ -13,7 +13,6 @@
 #include <glm/vec3.hpp>
 
 #include <brep/builder_input.hpp>
-#include <brep/handles.hpp>
 
 #include <raycast/box.hpp>
 #include <raycast/inline.hpp>

@@ -2,7 +2,6 @@
 #include <radiosity/discontinuity/critical_lines.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <optional>

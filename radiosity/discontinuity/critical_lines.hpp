@@ -13,7 +13,6 @@
 // (EEE surfaces, through three skew edges, are curved and of degree 2; they are left out.) A line extends as far as lamp and blocker
 // alone allow: where a third object hides one of them, the light may be smooth across it.
 
-#include <span>
 #include <vector>
 
 #include <glm/geometric.hpp>

@@ -5,7 +5,6 @@
 #include <array>
 #include <cstddef>
 #include <limits>
-#include <optional>
 #include <vector>
 
 #include <glm/geometric.hpp>

@@ -11,7 +11,6 @@
 // A lamp that reflects nothing has constant radiosity. One link carries the light of the whole lamp to any leaf on which this light is
 // nearly constant, however large the form factor is; neither end needs to be split for it.
 
-#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <optional>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <radiosity/exchange/kernel_sums.hpp>
 
-#include <cstddef>
 #include <span>
 
 #include <glm/vec3.hpp>

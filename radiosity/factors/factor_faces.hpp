@@ -7,12 +7,10 @@
 
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include <glm/vec3.hpp>
 
 #include <radiosity/factors/factor_integral.hpp>
-#include <radiosity/visibility/polygon_shaft.hpp>
 #include <radiosity/visibility/shadow.hpp>
 
 namespace radiosity {

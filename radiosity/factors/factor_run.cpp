@@ -27,6 +27,7 @@
 #include <radiosity/hierarchy/patch.hpp>
 #include <radiosity/support/parallel.hpp>
 #include <radiosity/support/random.hpp>
+#include <radiosity/visibility/polygon_shaft.hpp>
 #include <radiosity/visibility/prepare.hpp>
 #include <radiosity/visibility/shadow.hpp>
 

@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <vector>
 
-#include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vector_relational.hpp>
 

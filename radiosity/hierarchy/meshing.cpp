@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <radiosity/hierarchy/meshing.hpp>
 
-#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <utility>

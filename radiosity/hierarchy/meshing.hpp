@@ -12,7 +12,6 @@
 //   - It is deterministic: the same face is always split in the same way. It is called from one thread at a time.
 
 #include <algorithm>
-#include <concepts>
 #include <cstdint>
 #include <functional>
 #include <initializer_list>

@@ -23,7 +23,6 @@
 #include <brep/handles.hpp>
 #include <brep/refine.hpp>
 #include <brep/result.hpp>
-#include <brep/ring.hpp>
 #include <brep/small_list.hpp>
 #include <brep/split.hpp>
 #include <brep/split_objects.hpp>

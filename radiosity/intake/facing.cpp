@@ -24,6 +24,7 @@
 
 #include <radiosity/intake/backs.hpp>
 #include <radiosity/intake/clean.hpp>
+#include <radiosity/intake/side_light.hpp>
 
 namespace radiosity::intake {
 namespace detail {

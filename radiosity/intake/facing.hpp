@@ -7,7 +7,6 @@
 
 #include <span>
 
-#include <radiosity/intake/side_light.hpp>
 #include <radiosity/intake/working.hpp>
 #include <radiosity/scene/material.hpp>
 

@@ -2,7 +2,6 @@
 #include <radiosity/intake/merge.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>

@@ -4,16 +4,12 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <numeric>
-#include <optional>
 #include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
 #include <brep/polygon.hpp>

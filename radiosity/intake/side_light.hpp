@@ -6,7 +6,6 @@
 // piece of surface reflects on both sides, links are rays, lamps emit, eyes are small lamps, and a little light comes from outside.
 // Cracks let some light into a solid, but so much less than falls on its outside that the ratio of both decides.
 
-#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>

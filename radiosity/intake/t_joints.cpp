@@ -15,7 +15,6 @@
 #include <raycast/bvh.hpp>
 #include <raycast/inline.hpp>
 #include <raycast/line_query.hpp>
-#include <raycast/ray.hpp>
 
 namespace radiosity::intake {
 namespace detail {

@@ -11,7 +11,6 @@
 // Where two fans of faces touch in one vertex, each fan gets its own vertex, so that every component is a manifold: a boundary with at
 // most one gap at each vertex. Faces for which that is impossible become loose: they get no neighbours.
 
-#include <cstddef>
 #include <cstdint>
 #include <vector>
 

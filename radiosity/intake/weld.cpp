@@ -2,7 +2,6 @@
 #include <radiosity/intake/weld.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>

@@ -8,8 +8,6 @@
 #include <cstddef>
 #include <ctime>
 
-#include <raycast/shaft.hpp>
-
 #include <radiosity/hierarchy/links.hpp>
 #include <radiosity/links/evaluate.hpp>
 #include <radiosity/visibility/visibility.hpp>

@@ -19,8 +19,6 @@
 #include <optional>
 #include <vector>
 
-#include <raycast/shaft.hpp>
-
 #include <radiosity/clusters/cluster_exchange.hpp>
 #include <radiosity/clusters/clusters.hpp>
 #include <radiosity/clusters/lamp_exchange.hpp>

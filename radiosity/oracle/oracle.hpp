@@ -16,7 +16,6 @@
 //   - It agrees to a link once patches are small enough. In any case, two leaves not larger than min_area are linked, and the limits on
 //     links and memory apply.
 
-#include <concepts>
 #include <cstdint>
 #include <functional>
 #include <type_traits>

@@ -4,7 +4,6 @@
 // Finds pairs of nodes that provably do not see each other, whatever stands between them: faces in one plane or on one convex solid,
 // buried faces, and patches that face away from each other. Asked about every pair before any other oracle.
 
-#include <cstddef>
 #include <cstdint>
 #include <vector>
 

@@ -22,7 +22,6 @@
 #include <raycast/ray.hpp>
 #include <raycast/scene.hpp>
 #include <raycast/spans.hpp>
-#include <raycast/tolerances.hpp>
 #include <raycast/transform.hpp>
 
 #include <radiosity/direct/direct_light.hpp>

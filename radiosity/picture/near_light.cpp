@@ -10,7 +10,6 @@
 #include <numbers>
 #include <optional>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include <glm/geometric.hpp>

@@ -2,7 +2,6 @@
 #include <radiosity/picture/plane_grid.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>

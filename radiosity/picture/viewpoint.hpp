@@ -3,7 +3,6 @@
 
 // The visible share of the picture, for errors weighted by a picture instead of by area.
 
-#include <functional>
 #include <optional>
 #include <span>
 

@@ -5,7 +5,6 @@
 // estimated from the light that they carry, and the chosen links and leaves (bf_choice.hpp) are replaced by finer ones.
 
 #include <cstddef>
-#include <cstdint>
 #include <vector>
 
 #include <radiosity/exchange/doubt.hpp>

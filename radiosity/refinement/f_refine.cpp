@@ -10,7 +10,6 @@
 
 #include <raycast/inline.hpp>
 #include <raycast/shaft.hpp>
-#include <raycast/transform.hpp>
 
 #include <radiosity/clusters/clusters.hpp>
 #include <radiosity/hierarchy/hierarchy.hpp>

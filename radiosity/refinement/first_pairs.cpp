@@ -7,7 +7,6 @@
 #include <raycast/inline.hpp>
 #include <raycast/transform.hpp>
 
-#include <radiosity/clusters/clusters.hpp>
 #include <radiosity/hierarchy/hierarchy.hpp>
 #include <radiosity/hierarchy/surface.hpp>
 #include <radiosity/oracle/proof_oracle.hpp>

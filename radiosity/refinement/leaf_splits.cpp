@@ -2,7 +2,6 @@
 #include <radiosity/refinement/leaf_splits.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <utility>

@@ -15,7 +15,6 @@
 #include <glm/vec3.hpp>
 
 #include <raycast/inline.hpp>
-#include <raycast/shaft.hpp>
 
 #include <radiosity/exchange/doubt.hpp>
 #include <radiosity/exchange/exchange.hpp>

@@ -23,7 +23,6 @@
 
 #include <array>
 #include <cmath>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>

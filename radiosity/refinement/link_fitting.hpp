@@ -4,7 +4,6 @@
 // Adapts links when leaves below them are split after their evaluation: they need gradients, because a leaf that becomes an inner node
 // passes its light down (links.hpp), and on curved objects exchanges that match the areas, which are more accurate for finer leaves.
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>

@@ -14,7 +14,6 @@
 #include <cstdint>
 #include <vector>
 
-#include <radiosity/hierarchy/hierarchy.hpp>
 #include <radiosity/oracle/oracle.hpp>
 #include <radiosity/refinement/discrete_scene.hpp>
 #include <radiosity/visibility/occlusion.hpp>

@@ -16,7 +16,6 @@
 #include <radiosity/refinement/discrete_scene.hpp>
 #include <radiosity/result/audit.hpp>
 #include <radiosity/result/outcome.hpp>
-#include <radiosity/result/stopwatch.hpp>
 #include <radiosity/run/run.hpp>
 #include <radiosity/run/stages.hpp>
 #include <radiosity/scene/options.hpp>

@@ -10,7 +10,6 @@
 #include <raycast/inline.hpp>
 
 #include <radiosity/hierarchy/hierarchy.hpp>
-#include <radiosity/hierarchy/patch.hpp>
 #include <radiosity/hierarchy/polygons.hpp>
 #include <radiosity/hierarchy/surface.hpp>
 #include <radiosity/hierarchy/wall_cuts.hpp>

@@ -8,10 +8,7 @@
 // refinement, evaluation, solution and reconstruction, but not the scene itself: its objects, their first BReps, and the data read to
 // make them.
 
-#include <algorithm>
-#include <cstddef>
 #include <cstdint>
-#include <cstdio>
 #include <limits>
 #include <memory_resource>
 #include <optional>

@@ -11,7 +11,6 @@
 #include <glm/vector_relational.hpp>
 
 #include <brep/geometry.hpp>
-#include <brep/handles.hpp>
 
 #include <raycast/box.hpp>
 #include <raycast/bvh.hpp>

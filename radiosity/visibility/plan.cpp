@@ -2,11 +2,8 @@
 #include <radiosity/visibility/plan.hpp>
 
 #include <algorithm>
-#include <cmath>
-#include <cstddef>
 #include <cstdint>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <glm/geometric.hpp>

@@ -12,7 +12,6 @@
 // has a reflex edge.
 
 #include <cstdint>
-#include <string>
 #include <vector>
 
 #include <radiosity/hierarchy/surface.hpp>

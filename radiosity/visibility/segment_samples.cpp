@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <radiosity/visibility/segment_samples.hpp>
 
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <limits>
 
 #include <glm/geometric.hpp>

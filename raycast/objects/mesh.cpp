@@ -15,7 +15,6 @@
 
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
-#include <glm/vector_relational.hpp>
 
 #include <brep/brep.hpp>
 #include <brep/builder.hpp>
@@ -30,7 +29,6 @@
 #include <raycast/line_query.hpp>
 #include <raycast/object.hpp>
 #include <raycast/planar.hpp>
-#include <raycast/point_query.hpp>
 #include <raycast/ray.hpp>
 #include <raycast/spans.hpp>
 #include <raycast/tolerances.hpp>
