@@ -31,8 +31,8 @@ namespace radiosity {
 
 namespace detail {
 
-// The triangles of a mesh that reflect light, for drawing points: half of them uniformly by area, half by the squared reflected light. Where
-// only a picture counts, areas are those in the picture.
+// The triangles of a mesh that reflect light, for drawing points: half of them uniformly by area, half by the squared reflected light.
+// Where only a picture counts, areas are those in the picture.
 struct ReflectingTriangles {
   struct Triangle {
     std::uint32_t surface;
