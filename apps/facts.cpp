@@ -45,23 +45,9 @@ std::string value_text(const Facts::Value& value, const std::string& unit) {
 }  // namespace
 
 std::string bytes_text(std::uint64_t count) {
-  constexpr const char* units[] = {" B", " kB", " MB", " GB", " TB"};
-  double value = static_cast<double>(count);
-  int unit = 0;
-  while (value >= 1000.0 && unit < 4) {
-    value /= 1000.0;
-    ++unit;
-  }
-  return formatted(unit == 0 ? "%.0f" : "%.1f", value) + units[unit];
-}
-
-std::string grouped(std::uint64_t count) {
-  std::string digits = std::to_string(count);
-  for (std::size_t at = digits.size(); at > 3;) {
-    at -= 3;
-    digits.insert(at, " ");
-  }
-  return digits;
+  auto value = static_cast<double>(count);
+  const std::string prefix = take_prefix(value, 1000.0);
+  return formatted(prefix.empty() ? "%.0f" : "%.1f", value) + " " + prefix + "B";
 }
 
 std::string Facts::json() const {

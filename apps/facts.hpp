@@ -27,9 +27,6 @@ namespace apps {
 // 12 345 678 as "12.3 MB".
 [[nodiscard]] std::string bytes_text(std::uint64_t count);
 
-// 1234567 as "1 234 567".
-[[nodiscard]] std::string grouped(std::uint64_t count);
-
 class Facts {
  public:
   // Writes a list, which only the JSON contains; no sentence can name it.

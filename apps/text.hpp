@@ -8,6 +8,7 @@
 #include <array>
 #include <charconv>
 #include <cstddef>
+#include <cstdint>
 #include <cstdio>
 #include <optional>
 #include <string>
@@ -69,6 +70,21 @@ template <class List>
 [[nodiscard]] inline std::string shortest(double x) {
   std::array<char, 40> digits{};
   return {digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), x).ptr};
+}
+
+// 1234567 as "1 234 567".
+[[nodiscard]] inline std::string grouped(std::uint64_t count, const char* between = " ") {
+  std::string digits = std::to_string(count);
+  for (std::size_t at = digits.size(); at > 3; at -= 3) { digits.insert(at - 3, between); }
+  return digits;
+}
+
+// Divides x by 1000 as long as it is at least `limit`, but up to four times; returns the SI prefix of what is left: "", "k", "M", "G", "T".
+inline std::string take_prefix(double& x, double limit) {
+  static constexpr std::array<const char*, 5> prefixes = {"", "k", "M", "G", "T"};
+  std::size_t i = 0;
+  for (; x >= limit && i + 1 < prefixes.size(); ++i) { x /= 1000.0; }
+  return prefixes[i];
 }
 
 // 0.0123 as "1.23 %".

@@ -3,7 +3,6 @@
 
 // Numbers as text for people. A value that was not measured (NaN) is a dash.
 
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <string>
@@ -34,10 +33,8 @@ namespace study {
 
 // For the ticks of an axis: as few characters as possible.
 [[nodiscard]] inline std::string short_number(double x) {
-  static constexpr std::array<const char*, 5> prefixes = {"", " k", " M", " G", " T"};
-  std::size_t i = 0;
-  while (x >= 1000.0 * (1.0 - 1e-9) && i + 1 < prefixes.size()) { x /= 1000.0, ++i; }
-  return apps::formatted("%.4g", x) + prefixes[i];
+  const std::string prefix = apps::take_prefix(x, 1000.0 * (1.0 - 1e-9));
+  return apps::formatted("%.4g", x) + (prefix.empty() ? "" : " ") + prefix;
 }
 
 // 0.0123 -> "1.23 %".
@@ -51,25 +48,17 @@ namespace study {
 
 // 12 300 000 -> "12.3 MB", with powers of 1000 as for disks.
 [[nodiscard]] inline std::string bytes_text(std::uint64_t bytes) {
-  static constexpr std::array<const char*, 5> units = {" B", " kB", " MB", " GB", " TB"};
   auto x = static_cast<double>(bytes);
-  std::size_t i = 0;
-  while (x >= 999.5 && i + 1 < units.size()) { x /= 1000.0, ++i; }
-  return (i == 0 ? fixed(x, 0) : figure(x)) + units[i];
+  const std::string prefix = apps::take_prefix(x, 999.5);
+  return (prefix.empty() ? fixed(x, 0) : figure(x)) + " " + prefix + "B";
 }
 
 // 9 876, 12.3 k, 1.23 M; the space between digits is narrow and non-breaking.
 [[nodiscard]] inline std::string count_text(std::uint64_t count) {
-  if (count >= 10000) {
-    static constexpr std::array<const char*, 4> units = {" k", " M", " G", " T"};
-    double x = static_cast<double>(count) / 1000.0;
-    std::size_t i = 0;
-    for (; x >= 999.5 && i + 1 < units.size(); ++i) { x /= 1000.0; }
-    return figure(x) + units[i];
-  }
-  std::string digits = std::to_string(count);
-  for (std::size_t i = digits.size(); i > 3; i -= 3) { digits.insert(i - 3, "\u202f"); }
-  return digits;
+  if (count < 10000) { return apps::grouped(count, "\u202f"); }
+  auto x = static_cast<double>(count);
+  const std::string prefix = apps::take_prefix(x, 999.5);
+  return figure(x) + " " + prefix;
 }
 
 }  // namespace study
