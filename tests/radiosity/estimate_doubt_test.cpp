@@ -13,11 +13,15 @@
 
 #include <radiosity/geometry/form_factor.hpp>
 #include <radiosity/hierarchy/hierarchy.hpp>
+#include <radiosity/hierarchy/links.hpp>
 #include <radiosity/radiosity.hpp>
 #include <radiosity/refinement/leaf_error.hpp>
+#include <radiosity/refinement/link_error.hpp>
 #include <radiosity/result/audit.hpp>
 #include <radiosity/result/error_estimate.hpp>
 #include <radiosity/result/mesh.hpp>
+#include <radiosity/run/run.hpp>
+#include <radiosity/run/stages.hpp>
 #include <radiosity/scene/material.hpp>
 #include <radiosity/scene/options.hpp>
 #include <radiosity/scene/scene.hpp>
@@ -187,13 +191,17 @@ TEST_CASE("light through a hole of any size: the estimate is no less than a thir
   CHECK(doubted > 0);
 }
 
-TEST_CASE("an estimate from a sample of the links is the same with every seed, within a third, for a box with random holes", "[accuracy]") {
-  // Cylinders cut each other and the sides of the box: thin patches, many of which touch at an edge under a sharp angle.
+TEST_CASE("an estimate from a sample of the links is the same for every sample, within a quarter, for a box with random holes",
+          "[accuracy]") {
+  // Cylinders cut each other and the sides of the box: thin patches, many of which touch at an edge under a sharp angle. A sample is drawn
+  // in the order of the links, so links in another order give another sample of the same solution.
   const auto seed = std::random_device{}();
   INFO("seed " << seed);
   radiosity::Random random{seed, 4};
+  std::mt19937 shuffling{seed};
   const auto in = [&](double low, double high) { return low + (high - low) * random.uniform(); };
-  for (int k = 0; k < 4; ++k) {
+  int compared = 0;
+  for (int k = 0; k < 4 || compared == 0; ++k) {
     raycast::CsgNode cut{
         {}, {}, raycast::CsgOperation::subtract, {{raycast::BoxObject::make({0, 0, 0}, {2, 2, 2}).object, "box", {}, {}, {}}}, {}};
     for (int i = 0; i < 4; ++i) {
@@ -205,18 +213,26 @@ TEST_CASE("an estimate from a sample of the links is the same with every seed, w
     radiosity::Scene scene;
     scene.materials = {{"lamp", radiosity::Color{0.0}, radiosity::Color{10.0}}, {"wall", radiosity::Color{0.7}, radiosity::Color{0.0}}};
     scene.objects = {scenes::plate("lamp", {{1, 1, 9}, {1, 2, 9}, {2, 2, 9}, {2, 1, 9}}, 0), scenes::object("block", block.object, 1)};
+    radiosity::Options options;
+    options.threads = 1;
+    options.audit_points = 0;
+    options.indirect = radiosity::Indirect::links;
+    options.seed = seed + static_cast<std::uint64_t>(k);
+    radiosity::detail::Run run{scene, options, {}, {}};
+    namespace stage = radiosity::stage;
+    for (const auto next : {stage::build, stage::refine, stage::expose, stage::link, stage::solve}) { REQUIRE_FALSE(next(run)); }
+    radiosity::Links links = run.solution.links;
     double least = 1e300, most = 0.0;
-    for (std::uint64_t s = 1; s <= 6; ++s) {
-      radiosity::Options options;
-      options.threads = 1;
-      options.audit_points = 16;
-      options.seed = s;
-      const double estimate = scenes::solved(scene, options).audit.estimated_leaf_error.value_or(0.0);
+    for (int sample = 0; sample < 6; ++sample) {
+      const double estimate =
+          std::sqrt(radiosity::detail::sampled_estimate(run.scene, {links, {}}, run.solution.radiosity, run.evaluated).of_links);
       least = std::min(least, estimate);
       most = std::max(most, estimate);
+      std::shuffle(links.begin(), links.end(), shuffling);
     }
-    CAPTURE(k, least, most);
-    CHECK(most <= 4.0 / 3.0 * least);
+    CAPTURE(k, least, most, links.size());
+    CHECK(most <= 1.25 * least);
+    compared += links.size() > 4096 ? 1 : 0;  // of fewer links all may be measured
   }
 }
 
