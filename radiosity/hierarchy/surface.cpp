@@ -61,10 +61,10 @@ HALFLIGHT_INLINE SurfaceResult make_surface(const raycast::PlacedObject& object,
   for (const brep::FaceId f : concave) {
     const auto parts = brep::split_until_convex(surface.brep, f);
     if (parts) { continue; }
-    // A chord face that was cut along another solid need not be planar; then ears are cut off, down to triangles if necessary.
-    const bool warped = parts.refusal().code == brep::Code::not_planar && !object.flat();
+    // A chord face that was cut along another solid need not be planar, and a sliver of one may touch itself or lose its area when its
+    // corners are rounded; then ears are cut off, down to triangles if necessary.
     const auto split = brep::first_of(brep::AtNonConvexCorner{}, brep::AtBestEar{});
-    if (!warped || !brep::split_recursively(surface.brep, f, split, brep::Convex{} || brep::triangles)) {
+    if (object.flat() || !brep::split_recursively(surface.brep, f, split, brep::Convex{} || brep::triangles)) {
       return {std::nullopt, parts.refusal().sentence()};
     }
   }
