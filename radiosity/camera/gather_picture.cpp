@@ -18,6 +18,8 @@
 
 #include <radiosity/camera/fragments.hpp>
 #include <radiosity/camera/indirect_points.hpp>
+#include <radiosity/camera/picture_blocks.hpp>
+#include <radiosity/camera/seen_surfaces.hpp>
 #include <radiosity/camera/shadow_edges.hpp>
 #include <radiosity/direct/lit_region.hpp>
 #include <radiosity/scene/batches.hpp>
@@ -27,62 +29,28 @@
 namespace radiosity {
 namespace detail {
 
-inline constexpr std::uint32_t no_surface = 0xffffffff, several_surfaces = 0xfffffffe;  // stored in place of a surface number
-
 class GatherPainter {
  public:
   GatherPainter(const FinalGather& light, const View& view, unsigned threads, const Control& control)
       : light_{light},
         view_{view},
-        threads_{thread_count(threads)},
-        control_{control},
-        columns_{(view.size.width + block_side - 1) / block_side},
-        rows_{(view.size.height + block_side - 1) / block_side},
-        eye_{light.eye(view.eye)},
-        pixel_size_{eye_.position, 2.0 * view.half_width / view.size.width},
+        blocks_{view.size, threads, control},
+        seen_{light, view, blocks_},
         points_{view.size.width, view.size.height},
-        blocks_(std::size_t{columns_} * rows_),
-        irradiance_(blocks_.size()),
-        surfaces_(std::size_t{view.size.width} * view.size.height, no_surface),
-        lit_(surfaces_.size(), 0.0f) {
-    for (unsigned k = 0; k < 16; ++k) {
-      const unsigned reversed = (k & 1) << 3 | (k & 2) << 1 | (k & 4) >> 1 | (k & 8) >> 3;
-      sixteen_[k] = {(k + 0.5) / 16, (reversed + 0.5) / 16};
-    }
-    four_ = {glm::dvec2{0.375, 0.125}, {0.875, 0.375}, {0.125, 0.625}, {0.625, 0.875}};
-  }
+        irradiance_(blocks_.count()),
+        lit_(std::size_t{view.size.width} * view.size.height, 0.0f) {}
 
-  // Finds the fragments of all pixels. False when cancelled.
-  [[nodiscard]] bool look() {
-    return each_block(0.0, 0.15, [&](std::size_t b) { glance(b); }) && each_block(0.15, 0.3, [&](std::size_t b) { look_closer(b); });
-  }
+  // Finds what all pixels show. False when cancelled.
+  [[nodiscard]] bool look() { return seen_.look(); }
   [[nodiscard]] bool gather();
   [[nodiscard]] bool light_up(const Tone& tone, Picture& picture) {
-    return each_block(0.7, 0.9, [&](std::size_t b) { light_block(b); }) && each_block(0.9, 1.0, [&](std::size_t b) {
-             smooth_shadows(b);
-             show(b, tone, picture);
-           });
+    return blocks_.each_block(0.7, 0.9, [&](std::size_t b) { light_block(b); }) && blocks_.each_block(0.9, 1.0, [&](std::size_t b) {
+      smooth_shadows(b);
+      show(b, tone, picture);
+    });
   }
 
  private:
-  template <class Body>
-  bool each_block(double from, double to, const Body& body) {
-    return parallel_in_batches(control_, threads_, blocks_.size(), {512, 4}, body, [&](std::size_t done) {
-      control_.report("picture", from + (to - from) * static_cast<double>(done) / static_cast<double>(blocks_.size()));
-    });
-  }
-  template <class Body>
-  void each_pixel(std::size_t block, const Body& body) const {
-    const auto x0 = static_cast<std::uint32_t>(block % columns_) * block_side,
-               y0 = static_cast<std::uint32_t>(block / columns_) * block_side;
-    for (std::uint32_t y = y0; y < std::min(y0 + block_side, view_.size.height); ++y) {
-      for (std::uint32_t x = x0; x < std::min(x0 + block_side, view_.size.width); ++x) { body(x, y); }
-    }
-  }
-  [[nodiscard]] std::uint32_t& surface_of(std::uint32_t x, std::uint32_t y) { return surfaces_[std::size_t{y} * view_.size.width + x]; }
-
-  void glance(std::size_t block);
-  void look_closer(std::size_t block);
   [[nodiscard]] Color indirect_at(const Fragment& f) const;
   void light_block(std::size_t block);
   [[nodiscard]] bool on_edge(std::uint32_t x, std::uint32_t y) const;
@@ -94,89 +62,29 @@ class GatherPainter {
 
   const FinalGather& light_;
   const View& view_;
-  unsigned threads_;
-  const Control& control_;
-  std::uint32_t columns_, rows_;
-  FinalGather::Eye eye_;
-  PixelSize pixel_size_;
+  PictureBlocks blocks_;
+  SeenSurfaces seen_;
   IndirectPoints points_;
-  std::vector<std::vector<Fragment>> blocks_;
   std::vector<std::vector<Color>> irradiance_;  // of the fragments, by block
-  std::vector<std::uint32_t> surfaces_;         // by pixel: the surface that all of its rays meet, or no_surface or several_surfaces
   std::vector<float> lit_;                      // by pixel: its irradiance, summed over the channels, if it shows one surface
-  std::array<glm::dvec2, 16> sixteen_{};
-  std::array<glm::dvec2, 4> four_{};
+  std::array<glm::dvec2, 16> sixteen_ = SeenSurfaces::points<4>();
 };
 
-HALFLIGHT_INLINE void GatherPainter::glance(std::size_t block) {
-  std::array<glm::dvec3, 16> directions{};
-  std::array<std::pair<std::uint32_t, std::uint32_t>, 4> pixels{};
-  unsigned waiting = 0;
-  const auto look = [&] {
-    const auto seen = light_.seen16(eye_, std::span(directions.data(), 4 * waiting), false);
-    for (unsigned k = 0; k < waiting; ++k) {
-      const auto [x, y] = pixels[k];
-      const auto own = std::span(seen).subspan(4 * k, 4);
-      std::uint32_t& surface = surface_of(x, y);
-      surface = own[0] ? own[0]->surface : no_surface;
-      for (const auto& place : own) {
-        if (place.has_value() != own[0].has_value() || (place && !one_piece(*own[0], *place, pixel_size_))) { surface = several_surfaces; }
-      }
-      add_fragments(light_, x, y, own, pixel_size_, blocks_[block]);
-    }
-    waiting = 0;
-  };
-  each_pixel(block, [&](std::uint32_t x, std::uint32_t y) {
-    for (unsigned k = 0; k < 4; ++k) { directions[4 * waiting + k] = view_.direction(x + four_[k].x, y + four_[k].y); }
-    pixels[waiting++] = {x, y};
-    if (waiting == 4) { look(); }
-  });
-  if (waiting > 0) { look(); }
-}
-
-HALFLIGHT_INLINE void GatherPainter::look_closer(std::size_t block) {
-  const auto needs_more = [&](std::uint32_t x, std::uint32_t y) {
-    const std::uint32_t own = surface_of(x, y);
-    if (own == several_surfaces) { return true; }
-    for (std::uint32_t v = y > 0 ? y - 1 : 0; v < std::min(y + 2, view_.size.height); ++v) {
-      for (std::uint32_t u = x > 0 ? x - 1 : 0; u < std::min(x + 2, view_.size.width); ++u) {
-        if (surface_of(u, v) != own) { return true; }
-      }
-    }
-    return false;
-  };
-  std::vector<Fragment> result;
-  auto next = blocks_[block].begin();
-  bool changed = false;
-  each_pixel(block, [&](std::uint32_t x, std::uint32_t y) {
-    const auto first = next;
-    while (next != blocks_[block].end() && next->x == x && next->y == y) { ++next; }
-    if (!needs_more(x, y)) {
-      result.insert(result.end(), first, next);
-      return;
-    }
-    changed = true;
-    std::array<glm::dvec3, 16> directions{};
-    for (unsigned k = 0; k < 16; ++k) { directions[k] = view_.direction(x + sixteen_[k].x, y + sixteen_[k].y); }
-    add_fragments(light_, x, y, light_.seen16(eye_, directions, true), pixel_size_, result);
-  });
-  if (changed) { blocks_[block] = std::move(result); }
-}
-
 HALFLIGHT_INLINE FinalGather::Indirect GatherPainter::indirect(const Fragment& fragment, const GatherRays& rays) const {
-  const std::uint64_t pixel = std::size_t{fragment.y} * view_.size.width + fragment.x;
+  const std::uint64_t pixel = blocks_.pixel(fragment.x, fragment.y);
   const std::uint64_t key = scramble(pixel ^ std::uint64_t{rays.least - gather_rays.least} << 32) ^ fragment.place.surface;
   return light_.indirect(fragment.place, rays.least, rays.most, rays.error, key, rays.most_paths);
 }
 
 HALFLIGHT_INLINE IndirectPoint GatherPainter::gather_at(const Fragment& fragment) const {
   const auto found = indirect(fragment, gather_rays);
-  return indirect_point(found, {fragment.x, fragment.y}, fragment.place, eye_.position, pixel_size_(fragment.place.point.position));
+  return indirect_point(found, {fragment.x, fragment.y}, fragment.place, seen_.eye().position,
+                        seen_.pixel_size()(fragment.place.point.position));
 }
 
 HALFLIGHT_INLINE bool GatherPainter::gather() {
   if (light_.direct_alone()) { return true; }
-  std::vector<std::vector<std::uint32_t>> wanted(blocks_.size());  // fragments that need a point, by block
+  std::vector<std::vector<std::uint32_t>> wanted(blocks_.count());  // fragments that need a point, by block
   std::vector<std::pair<std::uint32_t, std::uint32_t>> all;
   std::vector<IndirectPoint> found;
   std::vector<Fragment> fragments;  // in which these points lie
@@ -184,39 +92,39 @@ HALFLIGHT_INLINE bool GatherPainter::gather() {
   for (std::uint32_t stride = 16; stride > 0; stride /= 2, done += 0.07) {
     const auto ask = [&](std::size_t b) {
       wanted[b].clear();
-      for (std::uint32_t i = 0; i < blocks_[b].size(); ++i) {
-        const Fragment& f = blocks_[b][i];
+      for (std::uint32_t i = 0; i < seen_.of(b).size(); ++i) {
+        const Fragment& f = seen_.of(b)[i];
         if (f.x % stride != 0 || f.y % stride != 0) { continue; }
         const auto& p = f.place.point;
         if (is_black(light_.material(f.place.surface).reflectance)) { continue; }
         if (points_.covered(f.x, f.y, p.position, p.normal, f.place.object)) { continue; }
         // Neighbouring pixels do not get two points: even the smallest spheres cover that distance, whatever is gathered.
-        const double apart = 2.0 * pixel_size_(p.position);
+        const double apart = 2.0 * seen_.pixel_size()(p.position);
         const bool near = std::any_of(wanted[b].begin(), wanted[b].end(), [&](std::uint32_t k) {
-          const auto& other = blocks_[b][k].place;
+          const auto& other = seen_.of(b)[k].place;
           return other.object == f.place.object && glm::dot(other.point.normal, p.normal) > 0.95 &&
                  glm::length(other.point.position - p.position) < apart;
         });
         if (!near) { wanted[b].push_back(i); }
       }
     };
-    if (!each_block(done, done + 0.01, ask)) { return false; }
+    if (!blocks_.each_block(done, done + 0.01, ask)) { return false; }
     all.clear();
     for (std::uint32_t b = 0; b < wanted.size(); ++b) {
       for (const std::uint32_t i : wanted[b]) { all.emplace_back(b, i); }
     }
     found.resize(all.size());
-    const auto gather_one = [&](std::size_t k) { found[k] = gather_at(blocks_[all[k].first][all[k].second]); };
+    const auto gather_one = [&](std::size_t k) { found[k] = gather_at(seen_.of(all[k].first)[all[k].second]); };
     const auto report = [&](std::size_t count) {
-      control_.report("picture", done + 0.06 * static_cast<double>(count) / static_cast<double>(all.size()));
+      blocks_.control().report("picture", done + 0.06 * static_cast<double>(count) / static_cast<double>(all.size()));
     };
-    if (!parallel_in_batches(control_, threads_, all.size(), {1024, 8}, gather_one, report)) { return false; }
+    if (!parallel_in_batches(blocks_.control(), blocks_.threads(), all.size(), {1024, 8}, gather_one, report)) { return false; }
     for (const IndirectPoint& point : found) { points_.add(point); }
-    for (const auto& [block, i] : all) { fragments.push_back(blocks_[block][i]); }
+    for (const auto& [block, i] : all) { fragments.push_back(seen_.of(block)[i]); }
   }
   const auto again = [&](std::size_t i) { return indirect(fragments[i], gather_rays_again); };
-  if (!points_.gather_again(threads_, control_, again)) { return false; }
-  parallel_for(points_.size(), threads_, [&](std::size_t i) { points_.fit(i); });
+  if (!points_.gather_again(blocks_.threads(), blocks_.control(), again)) { return false; }
+  parallel_for(points_.size(), blocks_.threads(), [&](std::size_t i) { points_.fit(i); });
   return true;
 }
 
@@ -226,7 +134,7 @@ HALFLIGHT_INLINE Color GatherPainter::indirect_at(const Fragment& f) const {
 }
 
 HALFLIGHT_INLINE void GatherPainter::light_block(std::size_t block) {
-  const std::vector<Fragment>& fragments = blocks_[block];
+  const std::vector<Fragment>& fragments = seen_.of(block);
   std::vector<Color>& irradiance = irradiance_[block];
   irradiance.assign(fragments.size(), Color{0.0});
   std::vector<std::uint32_t> order(fragments.size());
@@ -242,8 +150,8 @@ HALFLIGHT_INLINE void GatherPainter::light_block(std::size_t block) {
     add_direct_light(light_, own, fragments, irradiance);
     for (const std::uint32_t i : own) {
       const Fragment& f = fragments[i];
-      if (surface_of(f.x, f.y) == surface) {
-        lit_[std::size_t{f.y} * view_.size.width + f.x] = static_cast<float>(irradiance[i].x + irradiance[i].y + irradiance[i].z);
+      if (seen_.surface(blocks_.pixel(f.x, f.y)) == surface) {
+        lit_[blocks_.pixel(f.x, f.y)] = static_cast<float>(irradiance[i].x + irradiance[i].y + irradiance[i].z);
       }
     }
   }
@@ -253,7 +161,8 @@ HALFLIGHT_INLINE void GatherPainter::light_block(std::size_t block) {
 HALFLIGHT_INLINE bool GatherPainter::on_edge(std::uint32_t x, std::uint32_t y) const {
   const auto at = [&](std::uint32_t u, std::uint32_t v) { return std::size_t{v} * view_.size.width + u; };
   const auto differs = [&](std::size_t a, std::size_t b) {
-    return surfaces_[a] == surfaces_[b] && std::abs(lit_[a] - lit_[b]) > static_cast<float>(change_at_edge) * std::max(lit_[a], lit_[b]);
+    return seen_.surface(a) == seen_.surface(b) &&
+           std::abs(lit_[a] - lit_[b]) > static_cast<float>(change_at_edge) * std::max(lit_[a], lit_[b]);
   };
   const std::size_t own = at(x, y);
   return (x > 0 && differs(own, at(x - 1, y))) || (x + 1 < view_.size.width && differs(own, at(x + 1, y))) ||
@@ -264,7 +173,7 @@ HALFLIGHT_INLINE bool GatherPainter::on_edge(std::uint32_t x, std::uint32_t y) c
 HALFLIGHT_INLINE std::vector<FinalGather::Place> GatherPainter::places_of(const Fragment& fragment, std::span<const glm::dvec2> at) const {
   std::vector<FinalGather::Place> places;
   for (const glm::dvec2& p : at) {
-    const auto place = light_.beside(fragment.place, eye_.position, view_.direction(fragment.x + p.x, fragment.y + p.y));
+    const auto place = light_.beside(fragment.place, seen_.eye().position, view_.direction(fragment.x + p.x, fragment.y + p.y));
     if (place) { places.push_back(*place); }
   }
   return places;
@@ -273,11 +182,11 @@ HALFLIGHT_INLINE std::vector<FinalGather::Place> GatherPainter::places_of(const 
 // Where the edge of a shadow runs through a pixel, replaces its direct light by the mean over the pixel. Pixels of a block
 // share the list of possible blockers.
 HALFLIGHT_INLINE void GatherPainter::smooth_shadows(std::size_t block) {
-  const std::vector<Fragment>& fragments = blocks_[block];
+  const std::vector<Fragment>& fragments = seen_.of(block);
   std::vector<std::uint32_t> order;
   for (std::uint32_t i = 0; i < fragments.size(); ++i) {
     const Fragment& f = fragments[i];
-    if (f.share != 1.0f || f.place.surface != surfaces_[std::size_t{f.y} * view_.size.width + f.x] || !on_edge(f.x, f.y)) { continue; }
+    if (f.share != 1.0f || f.place.surface != seen_.surface(blocks_.pixel(f.x, f.y)) || !on_edge(f.x, f.y)) { continue; }
     if (!is_black(light_.material(f.place.surface).reflectance)) { order.push_back(i); }
   }
   const auto surface = [&](std::uint32_t i) { return fragments[i].place.surface; };
@@ -293,17 +202,17 @@ HALFLIGHT_INLINE void GatherPainter::smooth_shadows(std::size_t block) {
     LitRegion region = light_.lit_region(all);
     for (std::size_t k = begin; k < end; ++k) {
       const Fragment& f = fragments[order[k]];
-      const auto direct = over_pixel(region, f.place, places_of(f, four_), many[k - begin]);
+      const auto direct = over_pixel(region, f.place, places_of(f, SeenSurfaces::four), many[k - begin]);
       if (direct) { irradiance_[block][order[k]] = *direct + indirect_at(f); }
     }
   }
 }
 
 HALFLIGHT_INLINE void GatherPainter::show(std::size_t block, const Tone& tone, Picture& picture) const {
-  const std::vector<Fragment>& fragments = blocks_[block];
+  const std::vector<Fragment>& fragments = seen_.of(block);
   auto next = fragments.begin();
-  each_pixel(block, [&](std::uint32_t x, std::uint32_t y) {
-    const std::size_t pixel = std::size_t{y} * view_.size.width + x;
+  blocks_.each_pixel(block, [&](std::uint32_t x, std::uint32_t y) {
+    const std::size_t pixel = blocks_.pixel(x, y);
     Color sum{0.0}, all{0.0};
     float share = 0.0f;
     std::optional<Color> emission;  // emission of the first fragment

@@ -4,8 +4,7 @@
 // Renders the true objects (not the mesh) in gathered light (radiosity/picture/final_gather.hpp): direct light at every pixel, indirect
 // light at sparse points between which it is interpolated (indirect_points.hpp).
 //
-// A pixel is sampled by 4 rays, one in each row and column of a grid, and by 16, again one in each row and column, if it or a neighbour
-// shows several surfaces. The hits on one surface become one fragment of the pixel, which is lit once. Exposure and clamping are those of
+// What the rays of a pixel meet of one surface is one fragment, which is lit once (seen_surfaces.hpp). Exposure and clamping are those of
 // the mesh picture (mesh_picture.hpp). The result does not depend on the number of threads.
 
 #include <cstddef>

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Divides a picture into square blocks of pixels, over which the stages of a gathered picture run in parallel.
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+
+#include <radiosity/camera/fragments.hpp>
+#include <radiosity/camera/view.hpp>
+#include <radiosity/scene/batches.hpp>
+#include <radiosity/scene/options.hpp>
+#include <radiosity/support/parallel.hpp>
+
+namespace radiosity {
+
+class PictureBlocks {
+ public:
+  // `control` must outlive it. Reports the stage "picture".
+  PictureBlocks(const PictureSize& size, unsigned threads, const Control& control)
+      : size_{size}, columns_{(size.width + block_side - 1) / block_side}, threads_{thread_count(threads)}, control_{control} {}
+
+  [[nodiscard]] std::size_t count() const { return columns_ * ((size_.height + std::size_t{block_side} - 1) / block_side); }
+  [[nodiscard]] std::size_t pixel(std::uint32_t x, std::uint32_t y) const { return std::size_t{y} * size_.width + x; }
+  [[nodiscard]] unsigned threads() const { return threads_; }
+  [[nodiscard]] const Control& control() const { return control_; }
+
+  // Calls body(block) for each block; reports progress between `from` and `to`. False when cancelled.
+  template <class Body>
+  [[nodiscard]] bool each_block(double from, double to, const Body& body) const {
+    return parallel_in_batches(control_, threads_, count(), {512, 4}, body, [&](std::size_t done) {
+      control_.report("picture", from + (to - from) * static_cast<double>(done) / static_cast<double>(count()));
+    });
+  }
+  // Calls body(x, y) for each pixel of a block, by rows.
+  template <class Body>
+  void each_pixel(std::size_t block, const Body& body) const {
+    const auto x0 = static_cast<std::uint32_t>(block % columns_) * block_side,
+               y0 = static_cast<std::uint32_t>(block / columns_) * block_side;
+    for (std::uint32_t y = y0; y < std::min(y0 + block_side, size_.height); ++y) {
+      for (std::uint32_t x = x0; x < std::min(x0 + block_side, size_.width); ++x) { body(x, y); }
+    }
+  }
+  // Calls body(x, y) for the pixel and its up to eight neighbours.
+  template <class Body>
+  void each_neighbour(std::uint32_t x, std::uint32_t y, const Body& body) const {
+    for (std::uint32_t v = y > 0 ? y - 1 : 0; v < std::min(y + 2, size_.height); ++v) {
+      for (std::uint32_t u = x > 0 ? x - 1 : 0; u < std::min(x + 2, size_.width); ++u) { body(u, v); }
+    }
+  }
+
+ private:
+  PictureSize size_;
+  std::size_t columns_;
+  unsigned threads_;
+  const Control& control_;
+};
+
+}  // namespace radiosity
