@@ -48,6 +48,10 @@ inline constexpr double share_of_walls = 0.47;
 // between them may be dark. Objects thicker than this share of their length count as blocks, not walls: cutting along a block makes long
 // narrow patches, which do more harm than good.
 inline constexpr double share_of_few_walls = 0.07, thickness_of_wall = 0.2;
+// A wall whose foot is nearer to a face than this share of its height above the face stands on it: files of other programs have feet that
+// are rounded, or a millimetre above or below the floor, and a patch that extends under such a wall would be no better than under one
+// that touches.
+inline constexpr double foot_gap = 0.005;
 // close_gap: an object parallel to a face hides it if its distance is at most this share of its own diameter. share_hidden: its outline
 // cuts a part of the face if it is at least this share of that part; with smaller objects, long narrow patches would do more harm.
 // least_outline: triangles of layers of fine meshes, smaller than this share of the scene's diameter, do not cut each other.
@@ -91,7 +95,7 @@ HALFLIGHT_INLINE void measure_thickness(std::vector<WallFace>& faces) {
     for (const WallFace& other : faces) {
       const double depth = glm::dot(face.normal, face.polygon[0] - other.polygon[0]);
       const bool behind = depth > 0.0 && depth < face.thickness && glm::dot(face.normal, other.normal) < -0.99;
-      if (behind && boxes_meet(face.box, other.box, depth)) { face.thickness = depth; }
+      if (behind && boxes_meet(face.box, other.box, (1.0 + 1e-6) * depth)) { face.thickness = depth; }
     }
   }
 }
@@ -111,14 +115,30 @@ HALFLIGHT_INLINE std::vector<WallFace> wall_faces(const Surface& surface) {
   return faces;
 }
 
+// Does the plane of `wall` cut off no more than a strip of this width, as the underside of a wall close above the floor cuts off of the
+// walls beside it?
+HALFLIGHT_INLINE bool along_border(const WallFace& face, const WallFace& wall, double width) {
+  double behind = 0.0;
+  double before = 0.0;
+  for (const glm::dvec3& p : face.polygon) {
+    const double at = glm::dot(wall.normal, p - wall.polygon[0]);
+    behind = std::max(behind, -at);
+    before = std::max(before, at);
+  }
+  return std::min(behind, before) < width;
+}
+
 // Adds the interval on which `wall` stands on the plane of `face` or passes through it, if it rises above the front of the face.
 HALFLIGHT_INLINE void add_wall(const WallFace& face, const WallFace& wall, double tolerance, std::vector<WallLine>& lines) {
   const glm::dvec3 across = glm::cross(face.normal, wall.normal);
   if (!(glm::length(across) > 1e-6)) { return; }
   const glm::dvec3 along = glm::normalize(across);
+  constexpr double steep = 0.5;  // a flatter one would meet the plane of the face far from its foot
   const Polygon& w = wall.polygon;
   const auto height = [&](const glm::dvec3& p) { return glm::dot(face.normal, p - face.polygon[0]); };
   double top = 0.0;
+  for (const glm::dvec3& p : w) { top = std::max(top, height(p)); }
+  const double foot = std::max(tolerance, glm::length(across) > steep ? foot_gap * top : 0.0);
   double from = std::numeric_limits<double>::infinity();
   double to = -from;
   const auto meet = [&](const glm::dvec3& p) {
@@ -130,11 +150,10 @@ HALFLIGHT_INLINE void add_wall(const WallFace& face, const WallFace& wall, doubl
     const glm::dvec3& b = w[(i + 1) % w.size()];
     const double ha = height(a);
     const double hb = height(b);
-    top = std::max(top, ha);
-    if (std::abs(ha) <= tolerance) { meet(a); }
+    if (std::abs(ha) <= foot) { meet(a); }
     if ((ha > tolerance && hb < -tolerance) || (ha < -tolerance && hb > tolerance)) { meet(a + ha / (ha - hb) * (b - a)); }
   }
-  if (!(top > tolerance) || !(to - from > tolerance)) { return; }
+  if (!(top > foot) || !(to - from > tolerance) || along_border(face, wall, foot)) { return; }
   const bool thin = wall.thickness <= thickness_of_wall * (to - from);
   for (WallLine& line : lines) {
     const double cosine = glm::dot(line.normal, wall.normal);
@@ -281,7 +300,9 @@ HALFLIGHT_INLINE std::size_t cut_at_walls(std::vector<Surface>& surfaces, double
           const double size = wall.box.diameter();
           if (!detail::boxes_meet(walls[o][k].box, wall.box, detail::close_gap * size)) { continue; }
           if (size >= detail::least_outline * diameter) { detail::add_outline(walls[o][k], wall, tolerance, lines); }
-          if (detail::boxes_meet(walls[o][k].box, wall.box, tolerance)) { detail::add_wall(walls[o][k], wall, tolerance, lines); }
+          if (detail::boxes_meet(walls[o][k].box, wall.box, std::max(tolerance, detail::foot_gap * size))) {
+            detail::add_wall(walls[o][k], wall, tolerance, lines);
+          }
         }
       }
       if (!lines.empty()) { detail::cut_along(brep, faces[k], lines); }

@@ -3,7 +3,6 @@
 // What stands behind the stiff and extreme scenes, which are solved and measured by `halflight stress` (tests/apps/stress_test.cpp):
 // warnings that name what is doubtful and nothing else, closing that is never done by force, faces that are cut at walls.
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <random>
@@ -244,6 +243,31 @@ TEST_CASE("a wall cuts the faces on which it stands, and what does not divide th
                     scenes::plate("wall", {{0, 0, 0}, {0, 1, 0}, {0, 1, 1}, {0, 0, 1}}),
                     scenes::plate("below", {{0.5, 0, 0}, {0.5, 1, 0}, {0.5, 1, -1}, {0.5, 0, -1}})};
   CHECK(faces_of(corner)[0] == 1);
+}
+
+// Files of other programs round coordinates, or leave a millimetre between what stands and what it stands on.
+TEST_CASE("a wall whose foot is a little above or below a face cuts it as one that touches") {
+  const auto seed = std::random_device{}();
+  INFO("seed " << seed);
+  radiosity::Random random{seed, 7};
+  for (int k = 0; k < 20; ++k) {
+    Scene room = scenes::room_with_box();
+    room.objects.resize(1);
+    const double at = 0.2 + 0.5 * random.uniform(), thick = 0.1 * random.uniform(), top = 0.4 + 0.5 * random.uniform();
+    const bool sheet = k % 2 == 0;
+    const auto with_foot = [&](double foot) {
+      const auto plate = scenes::plate("wall", {{at, 0, foot}, {at, 1, foot}, {at, 1, top}, {at, 0, top}});
+      Scene scene = room;
+      scene.objects.push_back(sheet ? plate : scenes::object("wall", scenes::box({at, 0, foot}, {at + thick, 1, top})));
+      return faces_of(scene);
+    };
+    const auto touching = with_foot(0.0);
+    const double gap = std::pow(10.0, -12.0 + 9.0 * random.uniform());  // to a thousandth of the room
+    CAPTURE(k, at, thick, top, gap);
+    CHECK(touching[0] > 6);
+    CHECK(with_foot(gap)[0] == touching[0]);
+    CHECK(with_foot(-gap)[0] == touching[0]);
+  }
 }
 
 TEST_CASE("closure: a plate in the plane of a wall, but beyond the wall, does not pass for lying on it") {
