@@ -114,6 +114,17 @@ HALFLIGHT_INLINE bool Shells::shines_inwards(const Component& lamp, const Compon
   return around->volume > 0.0 && !around_is_room && walls;
 }
 
+HALFLIGHT_INLINE Component* Shells::room_of_thing(const Component& thing) {
+  if (thing.role != Role::solid || !(thing.volume > 0.0 || options_.sides_unknown)) { return nullptr; }
+  Component* best = nullptr;
+  for (Component& shell : components_) {
+    if ((shell.role != Role::solid && shell.role != Role::room) || !(std::abs(shell.volume) > std::abs(thing.volume))) { continue; }
+    if (best != nullptr && std::abs(shell.volume) >= std::abs(best->volume)) { continue; }
+    if (holds(shell, thing.box.centre())) { best = &shell; }
+  }
+  return best;
+}
+
 HALFLIGHT_INLINE std::vector<Component*> Shells::find_rooms() {
   constexpr std::size_t most_lamps = 64, most_points = 16;
   std::vector<Component*> rooms;
@@ -121,15 +132,20 @@ HALFLIGHT_INLINE std::vector<Component*> Shells::find_rooms() {
     const Place place{eye, eye};
     rooms.push_back(innermost(std::span(&place, 1), nullptr));
   }
+  const std::vector<Component*> around_eyes = rooms;
+  const auto has_eye = [&](const Component* shell) {
+    return shell != nullptr && std::find(around_eyes.begin(), around_eyes.end(), shell) != around_eyes.end();
+  };
   for (const auto& lamp : options_.lamps) {
     std::vector<Place> places;
     for (const glm::dvec3& p : lamp) { places.push_back({p, p}); }
     Component* const around = innermost(places, nullptr);
-    rooms.push_back(around != nullptr ? around : pierced_by(places, nullptr));
+    Component* const outer = around != nullptr && !has_eye(around) ? room_of_thing(*around) : nullptr;
+    rooms.push_back(has_eye(outer) ? outer : around != nullptr ? around : pierced_by(places, nullptr));
   }
-  const std::vector<Component*> around_eyes = rooms;
+  const std::vector<Component*> known = rooms;
   const auto seen_from_inside = [&](const Component* shell) {
-    return shell != nullptr && std::find(around_eyes.begin(), around_eyes.end(), shell) != around_eyes.end();
+    return shell != nullptr && std::find(known.begin(), known.end(), shell) != known.end();
   };
   std::size_t lamps = 0;
   for (Component& component : components_) {
@@ -155,6 +171,10 @@ HALFLIGHT_INLINE std::vector<Component*> Shells::find_rooms() {
     Component* const pierced = pierced_by(places, &component);
     if (pierced != nullptr && (around == nullptr || std::abs(pierced->volume) < std::abs(around->volume))) { around = pierced; }
     const bool itself = shines_inwards(component, around, seen_from_inside(around));
+    if (around != nullptr && !itself && !seen_from_inside(around)) {
+      Component* const outer = room_of_thing(*around);
+      if (outer != nullptr && (seen_from_inside(outer) || (shines(*around) && options_.eyes.empty()))) { around = outer; }
+    }
     rooms.push_back(itself ? &component : around);
   }
   return rooms;

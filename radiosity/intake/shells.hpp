@@ -103,6 +103,9 @@ class Shells {
   // The innermost furnished or empty room through whose walls a lamp reaches, such as a bulb sunk into the ceiling. `lamp`: null if the
   // lamp is not a shell.
   [[nodiscard]] Component* pierced_by(std::span<const Place> places, const Component* lamp);
+  // The smallest shell around a shell that looks outwards and holds a lamp, as a globe or a housing does: that is the room, and the shell
+  // a thing in it, if an eye is in that room; without any eye, if the shell itself shines. Null: none.
+  [[nodiscard]] Component* room_of_thing(const Component& thing);
   // Is a shell that emits inwards, at least in part, a room? One that looks outwards is a room if it emits only in part and is furnished.
   // One that looks inwards is a room if something is in it, if it is the only shell, or if the innermost shell around it looks outwards
   // and is half filled, as walls are by their rooms. Otherwise it is a lamp, such as a bulb, or another emitting object that is inside

@@ -178,6 +178,35 @@ TEST_CASE("intake: lamps in a room with an eye in it shine into it, even when al
   }
 }
 
+// Turned inside out, a globe or a housing would show what is in it, and hide the room that it lights.
+TEST_CASE("intake: a closed thing around a bulb stays a thing while an eye, or its own light, is in the room around it") {
+  const unsigned seed = std::random_device{}();
+  INFO("seed " << seed);
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  for (int round = 0; round < 20; ++round) {
+    const bool shines = round % 2 == 0, eye = !shines || round % 4 == 0, sides_unknown = round % 3 == 0;
+    const bool flush = round % 5 == 0, room_first = unit(random) < 0.5, room_inwards = unit(random) < 0.5;
+    CAPTURE(round, shines, eye, sides_unknown, flush, room_first);
+    Soup soup;
+    const auto room = [&] { soup::add_box(soup, {0, 0, 0}, {4, 4, 3}, 1, room_inwards); };
+    if (room_first) { room(); }
+    glm::dvec3 lo = glm::dvec3(1.0, 1.0, 1.0) + 0.5 * glm::dvec3(unit(random), unit(random), unit(random)), size(0.4, 0.5, 0.6);
+    if (flush) { lo.z = 3.0 - size.z; }
+    soup::add_box(soup, lo, lo + size, 1, false, shines ? 1 : 0);
+    soup::add_box(soup, lo + glm::dvec3(0.1), lo + glm::dvec3(0.2), 1, false, 1);
+    if (!room_first) { room(); }
+    radiosity::IntakeOptions options;
+    options.sides_unknown = sides_unknown;
+    if (eye) { options.eyes = {{0.5, 3.0 * unit(random) + 0.5, 2.0}}; }
+    const radiosity::Intake intake = soup.take_in(options);
+    check_sound(soup, intake);
+    const soup::Measure found = measure(intake.objects);
+    CHECK(found.rooms == 1);
+    CHECK(found.solids == 2);
+  }
+}
+
 // Many programs give every material a little light of its own. It must not turn the outer side of the walls into the room.
 TEST_CASE("intake: walls that shine stay what walls that do not shine are") {
   for (const bool furnished : {false, true}) {
