@@ -16,7 +16,7 @@ struct RayChoice {
   // Lamps are linked cluster by cluster, and surfaces that emit little more than the mean do not count as lamps; their light
   // goes by rays, too.
   bool many_lamps = false;
-  bool few = false;  // is the small number of input faces the only reason for not casting?
+  bool few = false;  // is the small number of input faces, or of those that do not shine, the only reason for not casting?
 };
 
 // Up to this many emitting faces are linked one by one; with more, clusters of them are faster.
@@ -52,7 +52,7 @@ inline constexpr double least_share_beside_lamps = 4.0;
   // Most of the interreflected light is that between the other faces. Under a sky of many faces, links made a street 30 % too bright, a
   // church 60 %.
   if (options.indirect == Indirect::automatic && 2 * lamps > faces && faces - lamps < rays_from && lamps * faces <= most_pairs) {
-    return {false, "most input faces shine, and are few enough to be linked"};
+    return {false, "most input faces shine, and are few enough to be linked", false, true};
   }
   return {true, {}, uncut > most_single_lamps || lamps * faces > most_pairs || 2 * lamps > faces};
 }

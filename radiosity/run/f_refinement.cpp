@@ -61,9 +61,19 @@ inline constexpr double most_contrast = 120.0;
   return {std::move(paths.points), contrast, lit.area(), scene.inputs.size()};
 }
 
+// The number of objects that emit.
+[[nodiscard]] HALFLIGHT_INLINE std::size_t emitting_objects(const DiscreteScene& scene) {
+  return static_cast<std::size_t>(std::count_if(scene.surfaces.begin(), scene.surfaces.end(), [&](const Surface& surface) {
+    const auto first = scene.emission.begin() + surface.first_surface;
+    return std::any_of(first, first + surface.object->sheet_count(), [](const Color& emission) { return !is_black(emission); });
+  }));
+}
+
 HALFLIGHT_INLINE double lit_part(const Run& run) {
   const double share = run.solution.audit.reflected_share.value_or(0.0);
-  return run.rays.cast && share > least_share_beside_lamps ? std::pow(least_share_beside_lamps / share, 2.0) : 1.0;
+  if (!run.rays.cast || share <= least_share_beside_lamps) { return 1.0; }
+  const auto spots = static_cast<double>(std::max<std::size_t>(1, emitting_objects(run.scene)));
+  return std::pow(least_share_beside_lamps / share, 2.0) / std::sqrt(spots);
 }
 
 // With the current thresholds.

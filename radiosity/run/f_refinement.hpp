@@ -21,6 +21,8 @@ void refine_by_forms(Run& run);
 // The share of the area to which Options::min_area refers. A lamp in the ceiling of a hall a kilometre wide lights a spot of some square
 // metres, where all of the error is. Light with the mean m and the RMS r fits on a share (m / r)^2 of the area, and m is at most the mean
 // emission; so the result decreases with the square of Audit::reflected_share, beginning at that of a room with a lamp close to a wall.
+// The spots of n lamps are as many times smaller. Patches of an n-th of the area would take n times as long as with one lamp, so the result
+// decreases with the square root of n: a picture with 49 lamps 2 mm below the ceiling, once 23 % too bright, is off by 6 %.
 // It is 1 if links chosen by form factor carry all light, because these ask for the smallest patches everywhere.
 [[nodiscard]] double lit_part(const Run& run);
 
