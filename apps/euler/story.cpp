@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "apps/euler/story.hpp"
 
-#include <algorithm>
 #include <cstdlib>
 #include <utility>
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "apps/intake/gltf_data.hpp"
 
-#include <algorithm>
 #include <array>
 #include <bit>
 #include <charconv>

@@ -16,6 +16,7 @@
 
 #include <brep/circulators.hpp>
 #include <brep/csg/solid.hpp>
+#include <brep/csg/to_brep.hpp>
 
 namespace brep::csg {
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <radiosity/refinement/leaf_splits.hpp>
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
