@@ -7,7 +7,7 @@
 // several surfaces (adaptive supersampling; Whitted 1980). 16 rays know the share of either side of an edge to 4 % (RMS over edges of any
 // direction), 64 to 1.5 %, 256 to .5 %. Where one side reflects far more than the picture does, like the inside of a lamp shade, that share
 // decides: such pixels are sampled by more rays, first those where the solution's light differs most, until the expected error of all
-// together is small. Emitted light does not count: edges of lamps are clipped to white, and no error is measured there.
+// together is small. Emitted light does not count: most lamps are shown clipped to white, and no error is measured at their edges.
 
 #include <algorithm>
 #include <array>
