@@ -207,9 +207,7 @@ ExitCode run(const FactorsOptions& options) {
   if (!file) { return code; }
   std::vector<radiosity::StageTime> times;
   radiosity::detail::Stopwatch watch(times);
-  radiosity::FactorOptions settings;
-  settings.error = options.error;
-  settings.threads = options.threads;
+  const radiosity::FactorOptions settings{.error = options.error, .threads = options.threads};
   const radiosity::FactorsResult result = radiosity::factors(file->scene, settings);
   if (!result.factors) {
     complain_of(options.scene, result.faults);

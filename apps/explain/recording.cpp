@@ -64,15 +64,13 @@ std::vector<radiosity::Polygon> contours_of(const Run& run) {
 }
 
 radiosity::Options options_of(const Wanted& wanted) {
-  radiosity::Options options;
-  options.epsilon = wanted.epsilon;
-  options.min_area = wanted.min_area;
-  options.light_epsilon = wanted.light_epsilon.value_or(wanted.epsilon);
-  options.indirect = radiosity::Indirect::links;
-  options.cluster_from = 0xffffffff;
-  options.audit_points = 0;
-  options.threads = 1;
-  return options;
+  return {.epsilon = wanted.epsilon,
+          .min_area = wanted.min_area,
+          .light_epsilon = wanted.light_epsilon.value_or(wanted.epsilon),
+          .indirect = radiosity::Indirect::links,
+          .cluster_from = 0xffffffff,
+          .audit_points = 0,
+          .threads = 1};
 }
 
 // Records the decisions reported by Control::decided.

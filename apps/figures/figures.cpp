@@ -197,11 +197,7 @@ Drawing level_tags(const std::string& scene) {
 
 Drawing weights_at_a_rim(const std::string& scene) {
   const SceneFile file = std::move(*parse_scene(scene).file);
-  radiosity::Options options;
-  options.epsilon = 1.0;
-  options.light_epsilon = 1e9;
-  options.audit_points = 0;
-  options.threads = 1;
+  const radiosity::Options options{.epsilon = 1.0, .light_epsilon = 1e9, .audit_points = 0, .threads = 1};
   radiosity::detail::Run run{file.scene, options, {}, {}};
   if (!solve(run)) { return {}; }
   // Finds the rim's vertex nearest to the eye, then the half-edges that leave it, one per face.
@@ -253,11 +249,7 @@ struct Pictures {
 };
 Pictures both_reconstructions(const std::string& scene, unsigned width, unsigned height, double epsilon) {
   const SceneFile file = std::move(*parse_scene(scene).file);
-  radiosity::Options options;
-  options.epsilon = epsilon;
-  options.min_area = 2e-4;
-  options.audit_points = 0;
-  options.threads = 1;
+  const radiosity::Options options{.epsilon = epsilon, .min_area = 2e-4, .audit_points = 0, .threads = 1};
   radiosity::detail::Run run{file.scene, options, {}, {}};
   if (!solve(run)) { return {}; }
   radiosity::Mesh weighted = run.picture(run.solution.radiosity, radiosity::Reconstruction::weighted);

@@ -147,9 +147,7 @@ class SceneMaker {
 
   void take_polygons() {
     if (model_.polygons() == 0) { return; }
-    radiosity::IntakeOptions options;
-    options.two_sided = options_.two_sided;
-    options.merge = options_.merge;
+    radiosity::IntakeOptions options{.merge = options_.merge, .two_sided = options_.two_sided};
     const std::vector<radiosity::Material>& materials = file_.scene.materials;
     const bool any_lamp = std::any_of(materials.begin(), materials.end(), [](const auto& m) { return !radiosity::is_black(m.emission); });
     options.open_sides_unknown = sides_unknown_;

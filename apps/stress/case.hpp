@@ -94,13 +94,7 @@ using radiosity::Scene;
 using radiosity::Solution;
 
 // Coarse and fast, for figures that do not depend on the mesh, or only within the bound of their case.
-inline Options coarse() {
-  Options options;
-  options.epsilon = 0.1;
-  options.min_area = 1e-3;
-  options.audit_points = 0;
-  return options;
-}
+inline Options coarse() { return {.epsilon = 0.1, .min_area = 1e-3, .audit_points = 0}; }
 
 // For figures that do depend on it.
 inline Options finer() {

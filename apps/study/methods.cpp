@@ -25,13 +25,7 @@ using radiosity::Solution;
 std::string text(const char* name, double value) { return std::string(name) + " " + apps::shortest(value); }
 
 Options common(const MethodOptions& study) {
-  Options options;
-  options.audit_points = 0;
-  options.compare = 0;
-  options.threads = study.threads;
-  options.seed = study.seed;
-  options.memory = study.memory;
-  return options;
+  return {.compare = 0, .audit_points = 0, .threads = study.threads, .memory = study.memory, .seed = study.seed};
 }
 
 // The same run, with a dense solution on its leaves.

@@ -22,12 +22,12 @@ struct PictureSize {
 };
 
 struct Camera {
-  std::string name;
+  std::string name = {};
   glm::dvec3 eye{0.0};
-  glm::dvec3 forward{0.0, 1.0, 0.0};  // not normalised, not zero
-  glm::dvec3 up{0.0, 0.0, 1.0};       // not normalised, not parallel to forward
-  double field_of_view = 50.0;        // horizontal, in degrees
-  std::optional<PictureSize> size;    // size of the picture, unless the caller overrides it
+  glm::dvec3 forward{0.0, 1.0, 0.0};     // not normalised, not zero
+  glm::dvec3 up{0.0, 0.0, 1.0};          // not normalised, not parallel to forward
+  double field_of_view = 50.0;           // horizontal, in degrees
+  std::optional<PictureSize> size = {};  // size of the picture, unless the caller overrides it
 };
 
 struct View {

@@ -61,7 +61,7 @@ struct Options {
   double target = 0.02;
   // Instead of `target`: BF-refinement ends after this many seconds (wall time). The most promising links come first; the result is the
   // best so far. This is the only option that makes a result depend on the machine. The audit takes additional time.
-  std::optional<double> time;
+  std::optional<double> time = {};
   // F-refinement (paper 4.4): a pair is linked when its estimated form factor is at most epsilon.
   double epsilon = 0.005;
   // The smallest patch that the form factor of a pair may require, as a share of the scene's area (without lamps and black surfaces:
@@ -74,15 +74,15 @@ struct Options {
   // Patches are split down to a quarter of min_area, because shadows have sharper edges than all other light; less, by the square of the
   // ratio, if this is below a quarter of epsilon. Default: a quarter of epsilon. Leaves above min_area are split once more, to a quarter
   // of this (refinement/leaf_splits.hpp).
-  std::optional<double> light_epsilon;
+  std::optional<double> light_epsilon = {};
   // Accuracy target: `target`, or epsilon and min_area, are reduced round by round until the audited relative L2 error is at most this:
   // that of the picture if Control::picture_error is given, otherwise that over all surfaces. Also ends when the budget of links, work or
   // memory is used up, or when there is no more gain (audit/accuracy_target.hpp).
-  std::optional<double> error;
+  std::optional<double> error = {};
 
   // Makes a second mesh, with gathered light (picture/mesh_refiner.hpp), whose faces are split until the relative L2 error of its colours
   // is at most this: Solution::refined. Requires shared topology and a reconstruction with colours at the corners.
-  std::optional<double> mesh_error;
+  std::optional<double> mesh_error = {};
 
   // Automatic: by rays from some 100 input faces on, if most light is reflected close beside a lamp, and if Control::viewpoint is in a room
   // that is dim beside the rest of the scene (ray_choice.hpp).
@@ -91,15 +91,15 @@ struct Options {
   // An oracle that refinement asks instead of its own (oracle.hpp states the contract). In F-refinement it replaces the rule with
   // epsilon; the light oracle is asked after it. In BF-refinement it chooses which end of a link with a large error is split; the first,
   // coarse links do not depend on it.
-  std::function<Decision(const Question&)> oracle;
+  std::function<Decision(const Question&)> oracle = {};
   // Splits the faces of leaves, instead of regular refinement (meshing.hpp).
-  std::function<ChildFaces(const LeafFace&)> meshing;
+  std::function<ChildFaces(const LeafFace&)> meshing = {};
   // If above 0: the faces of flat objects are cut along shadow edges and across their direct light (discontinuity/) instead of by regular
   // refinement, with at most this many shadow edges per face. Requires shared topology and no user-defined `meshing`.
   std::uint32_t discontinuities = 0;
 
   // Makes the ray caster that is used instead of the library's own (raycast::Scene::ask), for objects compiled in this frame.
-  std::function<raycast::OtherCaster(const raycast::Scene&, const Frame&)> caster;
+  std::function<raycast::OtherCaster(const raycast::Scene&, const Frame&)> caster = {};
 
   // Number of input faces from which on clusters are built above them; below, all pairs of input faces are examined.
   std::uint32_t cluster_from = 300;
@@ -111,7 +111,7 @@ struct Options {
   bool shortcuts = true;  // false: what the plan proves to be unnecessary (plan.hpp) is done all the same, with the same result
   Topology topology = Topology::shared;
   // For studies: adds a Comparison (comparison.hpp) to the solution, with a dense solution if there are at most this many leaves.
-  std::optional<std::uint32_t> compare;
+  std::optional<std::uint32_t> compare = {};
 
   std::uint32_t audit_points = 2000;  // approximate number of points of the audit (audit_effort.hpp); 0: no audit
   unsigned threads = 0;               // 0: as many as the machine has; results do not depend on it
@@ -120,7 +120,7 @@ struct Options {
   // reports it in audit.shortage: that of the last generation of BF-refinement, of the last round towards an error target, or of
   // F-refinement with larger epsilon and min_area (audit.coarsened). If not even the coarsest solution fits, there is none
   // (Failure::Kind::out_of_memory).
-  std::optional<std::uint64_t> memory;
+  std::optional<std::uint64_t> memory = {};
   // Memory for the arrays that grow with nodes, links, pairs and rays, including those of the Solution (big_array.hpp); null: the heap.
   // It must outlive the Solution and is used by several threads at once. BReps, contours and the mesh stay on the heap.
   std::pmr::memory_resource* arrays = nullptr;

@@ -10,8 +10,8 @@
 #include <radiosity/scene/scene.hpp>
 
 #include "apps/intake/light_views.hpp"
-#include "models.hpp"
 #include "catch.hpp"
+#include "models.hpp"
 
 using models::scene;
 
@@ -55,9 +55,6 @@ TEST_CASE("a ball that shines lights what is beside and below it as well as what
       {{"grey", radiosity::Color(0.5), radiosity::Color(0.0)}, {"lamp", radiosity::Color(0.0), radiosity::Color(1.0)}},
       {{"floor", raycast::Polygon::make({{-2, -2, 0}, {2, -2, 0}, {2, 2, 0}, {-2, 2, 0}}).object, {}, {0}},
        {"ball", raycast::Sphere::make({0, 0, 3}, 0.2).object, {}, {1}}}};
-  radiosity::Camera down;
-  down.eye = {0.0, -0.1, 2.0};
-  down.forward = {0.0, 0.1, -1.0};
-  down.field_of_view = 40.0;
+  const radiosity::Camera down{.eye = {0.0, -0.1, 2.0}, .forward = {0.0, 0.1, -1.0}, .field_of_view = 40.0};
   CHECK(apps::LightViews(scene).lit_share(down) == 1.0);
 }

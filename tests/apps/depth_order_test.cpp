@@ -122,11 +122,7 @@ apps::SceneFile scene_of(const FlushRoom& room) {
 }
 
 radiosity::Solution light_of(const apps::SceneFile& file) {
-  radiosity::Options options;
-  options.epsilon = 0.05;
-  options.min_area = 5e-4;
-  options.audit_points = 0;
-  options.threads = 1;
+  const radiosity::Options options{.epsilon = 0.05, .min_area = 5e-4, .audit_points = 0, .threads = 1};
   radiosity::Outcome outcome = radiosity::solve(file.scene, options);
   REQUIRE(outcome.solution);
   return std::move(*outcome.solution);

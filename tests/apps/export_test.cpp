@@ -31,11 +31,7 @@
 namespace {
 
 radiosity::Solution solved(const radiosity::Scene& scene) {
-  radiosity::Options options;
-  options.epsilon = 0.05;
-  options.min_area = 2e-3;
-  options.audit_points = 0;
-  options.threads = 1;
+  const radiosity::Options options{.epsilon = 0.05, .min_area = 2e-3, .audit_points = 0, .threads = 1};
   radiosity::Outcome outcome = radiosity::solve(scene, options);
   REQUIRE(outcome.solution);
   return std::move(*outcome.solution);

@@ -50,10 +50,7 @@ struct Shown {
 Shown shown(const std::string& text, const glm::dvec3& block) {
   apps::SceneResult parsed = apps::parse_scene(text);
   REQUIRE(parsed.file);
-  radiosity::Options options;
-  options.epsilon = 0.01;
-  options.min_area = 2e-4;
-  options.audit_points = 0;
+  const radiosity::Options options{.epsilon = 0.01, .min_area = 2e-4, .audit_points = 0};
   radiosity::Outcome outcome = radiosity::solve(parsed.file->scene, options);
   REQUIRE(outcome.solution);
   const radiosity::FinalGather light{parsed.file->scene, outcome.solution->mesh, outcome.solution->frame};

@@ -34,10 +34,7 @@ radiosity::Scene scene_of(const std::string& text) {
 }
 
 radiosity::Solution solved(const radiosity::Scene& scene) {
-  radiosity::Options options;
-  options.epsilon = 0.1;
-  options.min_area = 1e-2;
-  options.audit_points = 0;
+  const radiosity::Options options{.epsilon = 0.1, .min_area = 1e-2, .audit_points = 0};
   radiosity::Outcome outcome = radiosity::solve(scene, options);
   REQUIRE(outcome.solution);
   return std::move(*outcome.solution);
@@ -52,10 +49,7 @@ TEST_CASE("light from a file draws the pictures of the solution, to the bit") {
   INFO(read.reason);
   REQUIRE(read.light);
   for (const glm::dvec3 eye : {glm::dvec3{0.2, 0.2, 0.5}, {2.5, 1.5, 0.7}}) {
-    radiosity::Camera camera;
-    camera.eye = eye;
-    camera.forward = glm::dvec3{1.0, 1.0, 0.3} - eye;
-    camera.field_of_view = 70.0;
+    const radiosity::Camera camera{.eye = eye, .forward = glm::dvec3{1.0, 1.0, 0.3} - eye, .field_of_view = 70.0};
     const radiosity::View view = radiosity::make_view(camera, {24, 16});
     const auto picture = [&](const radiosity::Mesh& mesh, const radiosity::Frame& frame) {
       return radiosity::draw(radiosity::FinalGather{scene, mesh, frame}, view, 1.0).value();

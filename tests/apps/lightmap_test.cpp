@@ -33,10 +33,7 @@ apps::SceneFile model_of(const std::string& text) {
 }
 
 radiosity::Solution solution_of(const radiosity::Scene& scene) {
-  radiosity::Options options;
-  options.epsilon = 0.05;
-  options.audit_points = 0;
-  options.threads = 1;
+  const radiosity::Options options{.epsilon = 0.05, .audit_points = 0, .threads = 1};
   radiosity::Outcome outcome = radiosity::solve(scene, options);
   REQUIRE(outcome.solution);
   return std::move(*outcome.solution);

@@ -178,10 +178,7 @@ TEST_CASE("mgf: a furnace is a furnace") {
   const std::string oven = "m oven =\n rd 0.5\n ed 89.5\n" + square;
   for (const std::string shape : {"sph a -1\n", "prism a b c d -1\n"}) {
     const apps::SceneFile file = models::scene("a.mgf", oven + shape);
-    radiosity::Options options;
-    options.epsilon = 0.1;
-    options.audit_points = 0;
-    options.threads = 1;
+    const radiosity::Options options{.epsilon = 0.1, .audit_points = 0, .threads = 1};
     const radiosity::Outcome outcome = radiosity::solve(file.scene, options);
     REQUIRE(outcome.solution);
     for (const radiosity::SurfaceMean& surface : outcome.solution->audit.surfaces) { CHECK(std::abs(surface.radiosity.x - 1.0) < 1e-3); }

@@ -57,8 +57,7 @@ struct Solved {
 
 Solved solved(const std::string& name, double scale, const glm::dvec3& offset) {
   radiosity::Scene scene = parsed_scene(written(name, scale, offset), name);
-  radiosity::Options options;
-  options.audit_points = 0;
+  const radiosity::Options options{.audit_points = 0};
   radiosity::Outcome outcome = radiosity::solve(scene, options);
   REQUIRE(outcome.solution);
   return {std::move(scene), std::move(*outcome.solution)};

@@ -58,9 +58,7 @@ TEST_CASE("OBJ: furnace") {
   const apps::SceneFile file = scene("room.obj", models::room_obj, {{"room.mtl", "newmtl wall\nKd 0.5\nKe 2\n"}});
   REQUIRE(file.scene.objects.size() == 1);
   CHECK(file.scene.objects[0].placement.inside);
-  radiosity::Options options;
-  options.audit_points = 0;
-  options.threads = 1;
+  const radiosity::Options options{.audit_points = 0, .threads = 1};
   const radiosity::Outcome outcome = radiosity::solve(file.scene, options);
   REQUIRE(outcome.solution);
   for (const radiosity::SurfaceMean& surface : outcome.solution->audit.surfaces) {

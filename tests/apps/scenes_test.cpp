@@ -25,10 +25,7 @@ namespace {
 
 void solve_with_checks(const std::string& name, double epsilon, double min_area) {
   CAPTURE(name);
-  radiosity::Options options;
-  options.epsilon = epsilon;
-  options.min_area = min_area;
-  options.audit_points = 0;
+  const radiosity::Options options{.epsilon = epsilon, .min_area = min_area, .audit_points = 0};
   int generations = 0;
   const radiosity::Control control = watch_generations(generations);
   const auto outcome = radiosity::solve(example_scene(name), options, control);
@@ -108,8 +105,7 @@ TEST_CASE("Cornell box and room agree with path tracing surface by surface", "[s
        }},
   };
   for (const auto& [name, means] : traced) {
-    radiosity::Options options;
-    options.audit_points = 0;
+    const radiosity::Options options{.audit_points = 0};
     const auto outcome = radiosity::solve(example_scene(name), options);
     REQUIRE(outcome.solution);
     std::map<std::string, radiosity::Color> solved;
@@ -128,8 +124,7 @@ TEST_CASE("audit: of 16 examples at the default audit, 14 know their error to wi
   for (const std::string name :
        {"paper_figure", "paper_figure_small", "penumbra", "perpendicular_plates", "sphere", "cylinder", "two_plates", "three_plates"}) {
     for (const std::uint64_t seed : {1, 2}) {
-      radiosity::Options options;
-      options.seed = seed;
+      const radiosity::Options options{.seed = seed};
       const auto outcome = radiosity::solve(example_scene(name + ".scene"), options);
       REQUIRE(outcome.solution);
       const radiosity::Audit& audit = outcome.solution->audit;

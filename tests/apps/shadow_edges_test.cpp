@@ -82,10 +82,7 @@ std::vector<double> shown(const Blade& blade, double sun_length) {
       sun_along(blade, sun_length) + blade.text() + "camera above eye 0 0 5 target 0 0 0 up 0 1 0 fov 60\n");
   REQUIRE(parsed.file);
   const radiosity::Scene& scene = parsed.file->scene;
-  radiosity::Options options;
-  options.epsilon = 0.5;
-  options.min_area = 0.01;
-  options.audit_points = 0;
+  const radiosity::Options options{.epsilon = 0.5, .min_area = 0.01, .audit_points = 0};
   const radiosity::Outcome outcome = radiosity::solve(scene, options);
   REQUIRE(outcome.solution);
   radiosity::Camera camera = parsed.file->cameras.front();

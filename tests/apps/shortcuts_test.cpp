@@ -47,12 +47,7 @@ radiosity::Audit same_without(const radiosity::Scene& scene, const radiosity::Op
 }
 
 radiosity::Options coarse(radiosity::Refinement refinement) {
-  radiosity::Options options;
-  options.refinement = refinement;
-  options.epsilon = 0.1;
-  options.min_area = 1e-3;
-  options.target = 0.2;
-  return options;
+  return {.refinement = refinement, .target = 0.2, .epsilon = 0.1, .min_area = 1e-3};
 }
 
 bool leaves_out(const radiosity::Audit& audit, const std::string& what) {

@@ -83,12 +83,7 @@ class Lit {
   [[nodiscard]] double error() const { return outcome_.solution->audit.surface_error->high; }
 
  private:
-  static radiosity::Options options() {
-    radiosity::Options options;
-    options.epsilon = 0.05;
-    options.min_area = 1e-3;
-    return options;
-  }
+  static radiosity::Options options() { return {.epsilon = 0.05, .min_area = 1e-3}; }
 
   const radiosity::Scene& scene_;
   radiosity::Outcome outcome_;

@@ -56,15 +56,13 @@ constexpr Way ways[] = {{"links", radiosity::Refinement::a_priori, radiosity::In
                         {"BF", radiosity::Refinement::a_posteriori, radiosity::Indirect::links}};
 
 radiosity::Options options_of(const Way& way, double epsilon) {
-  radiosity::Options options;
-  options.refinement = way.refinement;
-  options.indirect = way.indirect;
-  options.epsilon = epsilon;
-  options.min_area = 0.1 * epsilon;
-  options.target = epsilon;
-  options.audit_points = 0;
-  options.threads = 2;
-  return options;
+  return {.refinement = way.refinement,
+          .target = epsilon,
+          .epsilon = epsilon,
+          .min_area = 0.1 * epsilon,
+          .indirect = way.indirect,
+          .audit_points = 0,
+          .threads = 2};
 }
 
 }  // namespace

@@ -63,11 +63,7 @@ TEST_CASE("memory limit of F-refinement: the best that fits, finer with more mem
   std::mt19937_64 random{seed};
   const std::vector<radiosity::Scene> scenes{apps::stress::room_with_box(), apps::stress::furnace_with_things(0.5)};
   for (const radiosity::Scene& scene : scenes) {
-    Options options;
-    options.epsilon = 0.05;
-    options.min_area = 4e-3;
-    options.audit_points = 0;
-    options.threads = 1;
+    Options options{.epsilon = 0.05, .min_area = 4e-3, .audit_points = 0, .threads = 1};
     const Measured whole = measured([&] { return radiosity::solve(scene, options); });
     REQUIRE(whole.outcome.solution);
     const std::uint64_t of_scene = peak_of_scene(scene, options);
@@ -115,12 +111,7 @@ TEST_CASE("memory limit of F-refinement: the best that fits, finer with more mem
 }
 
 TEST_CASE("memory limit of stored rays: coarser, and the same bits for any number of threads") {
-  Options options;
-  options.epsilon = 0.02;
-  options.min_area = 1e-3;
-  options.audit_points = 0;
-  options.indirect = radiosity::Indirect::rays;
-  options.threads = 1;
+  Options options{.epsilon = 0.02, .min_area = 1e-3, .indirect = radiosity::Indirect::rays, .audit_points = 0, .threads = 1};
   const radiosity::Scene scene = apps::stress::room_with_box();
   const Measured whole = measured([&] { return radiosity::solve(scene, options); });
   REQUIRE(whole.outcome.solution);
@@ -136,11 +127,7 @@ TEST_CASE("memory limit of stored rays: coarser, and the same bits for any numbe
 }
 
 TEST_CASE("memory limit of BF-refinement: the best that fits, finer with more memory, never exceeded") {
-  Options options;
-  options.refinement = radiosity::Refinement::a_posteriori;
-  options.target = 0.03;
-  options.audit_points = 0;
-  options.threads = 1;
+  Options options{.refinement = radiosity::Refinement::a_posteriori, .target = 0.03, .audit_points = 0, .threads = 1};
   const radiosity::Scene scene = apps::stress::room_with_box();
   const std::uint64_t of_scene = peak_of_scene(scene, options);
   double estimate = 1e9;
@@ -169,11 +156,7 @@ TEST_CASE("memory limit of BF-refinement: the best that fits, finer with more me
 }
 
 TEST_CASE("memory limit of an error target: the round before, and it says so") {
-  Options options;
-  options.error = 0.002;
-  options.audit_points = 100;
-  options.threads = 1;
-  options.memory = 3'000'000;
+  const Options options{.error = 0.002, .audit_points = 100, .threads = 1, .memory = 3'000'000};
   const Measured run = measured([&] { return radiosity::solve(apps::stress::two_plates(0.5), options); });
   REQUIRE(run.outcome.solution);
   CHECK(run.peak <= *options.memory);
@@ -208,10 +191,7 @@ TEST_CASE("memory limit that the input surfaces alone exceed: refused before the
 }
 
 TEST_CASE("the peak of each stage is told, and grows from stage to stage") {
-  Options options;
-  options.audit_points = 0;
-  options.epsilon = 0.2;
-  options.min_area = 0.01;
+  const Options options{.epsilon = 0.2, .min_area = 0.01, .audit_points = 0};
   const Outcome outcome = radiosity::solve(apps::stress::room_with_box(), options);
   REQUIRE(outcome.solution);
   if (!radiosity::peak_memory()) { return; }

@@ -29,14 +29,7 @@ using radiosity::Outcome;
 
 namespace {
 
-Options small() {
-  Options options;
-  options.epsilon = 0.2;
-  options.min_area = 0.01;
-  options.audit_points = 8;
-  options.threads = 3;
-  return options;
-}
+Options small() { return {.epsilon = 0.2, .min_area = 0.01, .audit_points = 8, .threads = 3}; }
 
 Options bf() {
   Options options = small();

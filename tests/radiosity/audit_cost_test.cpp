@@ -190,8 +190,7 @@ TEST_CASE("a target out of reach ends within the stated work, and after the same
     const auto run = [&](double wanted) {
       std::uint64_t work = 0, rounds = 0;
       double error = 0.5;
-      radiosity::Options options;
-      options.error = wanted;
+      const radiosity::Options options{.error = wanted};
       const radiosity::Outcome outcome = radiosity::detail::solve_to_error(options, true, [&](const radiosity::Options& round, auto) {
         CHECK(round.memory.has_value());
         radiosity::Random gain{seed, key, rounds};
@@ -235,11 +234,7 @@ TEST_CASE("the audits of random scenes cost what is stated: as much time as the 
       const glm::dvec3 centre{3.0 * random.uniform(), 3.0 * random.uniform(), 3.0 * random.uniform()};
       scene.objects.push_back({"ball", raycast::Sphere::make(centre, 0.02 + 0.1 * random.uniform()).object, {}, {material}});
     }
-    radiosity::Options options;
-    options.epsilon = 0.05;
-    options.min_area = 1e-3;
-    options.audit_points = 200;
-    options.seed = seed + static_cast<std::uint64_t>(k);
+    radiosity::Options options{.epsilon = 0.05, .min_area = 1e-3, .audit_points = 200, .seed = seed + static_cast<std::uint64_t>(k)};
     if (k % 2 == 1) { options.error = 1e-6; }  // of which this is one round
     const radiosity::Outcome outcome = radiosity::detail::solve_within_memory(scene, options, {}, 0);
     REQUIRE(outcome.solution);

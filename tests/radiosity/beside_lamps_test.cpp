@@ -79,9 +79,7 @@ TEST_CASE("light oracle: the bright spot that a lamp makes beside it is resolved
     const auto between = [&](double a, double b) { return a * std::pow(b / a, random.uniform()); };
     const double radius = between(0.004, 0.04), length = between(0.1, 1.0), gap = between(0.3, 3.0) * radius;
     const TubeUnderPlate tube{radius, length, gap};
-    radiosity::Options options;
-    options.threads = 1;
-    options.audit_points = 0;
+    radiosity::Options options{.audit_points = 0, .threads = 1};
     options.epsilon = 0.01;  // as for pictures
     options.min_area = 2e-4;
     options.reconstruction = radiosity::Reconstruction::constant;  // a face a leaf

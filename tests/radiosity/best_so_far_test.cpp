@@ -32,13 +32,7 @@ using radiosity::Solution;
 
 namespace {
 
-Options finely() {
-  Options options;
-  options.epsilon = 0.02;
-  options.min_area = 9.6e-4;
-  options.audit_points = 0;
-  return options;
-}
+Options finely() { return {.epsilon = 0.02, .min_area = 9.6e-4, .audit_points = 0}; }
 
 // What the run tells of its progress, call by call.
 std::vector<std::string> steps_of(const Scene& scene, const Options& options) {
@@ -205,9 +199,7 @@ TEST_CASE("stopped from another thread, a run gives a whole solution soon, of fe
 }
 
 TEST_CASE("an error target that is stopped in its second round gives the solution of the first and says so") {
-  Options options;
-  options.error = 0.001;
-  options.audit_points = 50;
+  const Options options{.error = 0.001, .audit_points = 50};
   for (const char* last : {"refine", "link"}) {
     std::atomic<bool> cancel{false};
     bool audited = false;

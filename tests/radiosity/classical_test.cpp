@@ -15,13 +15,7 @@ using scenes::solved;
 
 namespace {
 
-Options coarsest() {
-  Options options;
-  options.epsilon = 0.05;
-  options.min_area = 5e-4;
-  options.audit_points = 0;
-  return options;
-}
+Options coarsest() { return {.epsilon = 0.05, .min_area = 5e-4, .audit_points = 0}; }
 
 double relative_difference(const Solution& a, const Solution& b) {
   REQUIRE(a.radiosity.size() == b.radiosity.size());

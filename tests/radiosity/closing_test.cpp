@@ -82,8 +82,7 @@ TEST_CASE("closing a room leaves the light of a lamp under its ceiling, which hi
   radiosity::Random random{seed, 0x63656960ull};
   for (int round = 0; round < 6; ++round) {
     const HungSphere hung = hung_sphere(random);
-    radiosity::Options options;
-    options.audit_points = 0;
+    radiosity::Options options{.audit_points = 0};
     options.reconstruction = radiosity::Reconstruction::constant;  // a face a leaf
     for (const radiosity::Indirect indirect : {radiosity::Indirect::links, radiosity::Indirect::rays}) {
       options.indirect = indirect;
@@ -122,9 +121,7 @@ TEST_CASE("a white room that only rays know to be closed is refused, but solved 
     wall("lamp", {0.4 * x, 0.4 * y, 0.7 * z}, {0.6 * x, 0.5 * y, 0.75 * z}, 1);
     return scene;
   };
-  radiosity::Options options;
-  options.epsilon = 0.05;
-  options.audit_points = 0;
+  const radiosity::Options options{.epsilon = 0.05, .audit_points = 0};
   const radiosity::Outcome white = radiosity::solve(room(1.0, false), options);
   CHECK_FALSE(white.solution);
   CHECK(white.failure.kind == radiosity::Failure::Kind::invalid_scene);

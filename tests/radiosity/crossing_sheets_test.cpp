@@ -67,11 +67,8 @@ TEST_CASE("furnace: a room of oversize walls that cross at its corners loses no 
     const glm::dvec3 hi{number_in(random, 3.0, 6.0), number_in(random, 3.0, 6.0), number_in(random, 2.3, 4.0)};
     Soup soup = room_of_sheets(random, hi, number_in(random, 0.05, 0.3), round % 2 == 0);
     soup.materials = {{"grey", radiosity::Color{0.9}, radiosity::Color{0.1}}};
-    radiosity::IntakeOptions both_sides;
-    both_sides.two_sided = true;
-    radiosity::Options options;
-    options.epsilon = 0.05;
-    options.audit_points = 0;
+    const radiosity::IntakeOptions both_sides{.two_sided = true};
+    const radiosity::Options options{.epsilon = 0.05, .audit_points = 0};
     const radiosity::Outcome outcome = radiosity::solve({soup.materials, soup.take_in(both_sides).objects}, options);
     REQUIRE(outcome.solution);
     const radiosity::Mesh& mesh = outcome.solution->mesh;

@@ -49,16 +49,10 @@ TEST_CASE("a gathered picture shows curved surfaces where they are, not beside i
                             {"lamp", radiosity::Color{0.0}, radiosity::Color{lamp_exitance}}},
                            {}};
     scene.objects = {scenes::object("thing", shape), scenes::object("lamp", raycast::Sphere::make(lamp_centre, lamp_radius).object, 1)};
-    radiosity::Options options;
-    options.epsilon = 0.1;
-    options.min_area = 1e-2;
-    options.audit_points = 0;
+    const radiosity::Options options{.epsilon = 0.1, .min_area = 1e-2, .audit_points = 0};
     const radiosity::Solution solution = scenes::solved(scene, options);
     const radiosity::FinalGather light{scene, solution.mesh, solution.frame};
-    radiosity::Camera camera;
-    camera.eye = {0, -6, 0.5};
-    camera.forward = {0, 6, -0.5};
-    camera.field_of_view = 22;
+    const radiosity::Camera camera{.eye = {0, -6, 0.5}, .forward = {0, 6, -0.5}, .field_of_view = 22};
     const radiosity::View view = radiosity::make_view(camera, {49, 49});
     const radiosity::Picture picture = radiosity::draw(light, view, 1.0).value();
     const raycast::Scene objects{{raycast::PlacedObject{shape}}};
@@ -66,7 +60,7 @@ TEST_CASE("a gathered picture shows curved surfaces where they are, not beside i
       const raycast::Segment ray{view.eye, view.direction(x, y)};
       const auto hit = objects.closest(ray);
       if (!hit) { return std::nullopt; }
-      return objects.object(0).project(hit->sheet, ray.origin + hit->t * ray.direction);
+      return objects.point(*hit, ray);
     };
     double brightest = 0.0, square = 0.0;
     int count = 0;

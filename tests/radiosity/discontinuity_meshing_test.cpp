@@ -49,12 +49,7 @@ Scene random_room(std::uint64_t seed) {
 }
 
 Options coarse(std::uint32_t discontinuities) {
-  Options options;
-  options.epsilon = 0.08;
-  options.min_area = 4e-3;
-  options.audit_points = 0;
-  options.discontinuities = discontinuities;
-  return options;
+  return {.epsilon = 0.08, .min_area = 4e-3, .discontinuities = discontinuities, .audit_points = 0};
 }
 
 // The half-shadow of examples/scenes/penumbra.scene.
@@ -154,12 +149,8 @@ TEST_CASE("discontinuity meshing of a half-shadow: about half the error with no 
   };
   for (const Pair& pair : {Pair{0.01, 0.0043}, Pair{0.005, 0.00287}}) {
     const auto options = [](double epsilon) {
-      Options result;
-      result.epsilon = epsilon;
-      result.min_area = 2.4 * epsilon * epsilon;
-      result.audit_points = 0;
-      result.reconstruction = radiosity::Reconstruction::none;
-      return result;
+      return Options{
+          .epsilon = epsilon, .min_area = 2.4 * epsilon * epsilon, .reconstruction = radiosity::Reconstruction::none, .audit_points = 0};
     };
     const Solution regular = scenes::solved(half_shadow(), options(pair.regular));
     Options with = options(pair.cut);

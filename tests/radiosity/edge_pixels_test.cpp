@@ -36,15 +36,10 @@ TEST_CASE("a gathered picture of bright edges in any direction has the mean over
     scene.objects = {scenes::plate("triangle", {corner(0.0, 0.7), corner(2.0, 0.5 + 0.2 * random.uniform()), corner(4.2, 0.6)}, 0),
                      scenes::plate("wall", {{-6, 3, -6}, {6, 3, -6}, {6, 3, 6}, {-6, 3, 6}}, 1),
                      scenes::plate("lamp", {{-4, -8, -4}, {-4, -8, 4}, {4, -8, 4}, {4, -8, -4}}, 2)};
-    radiosity::Options options;
-    options.epsilon = 0.1;
-    options.min_area = 1e-2;
-    options.audit_points = 0;
+    const radiosity::Options options{.epsilon = 0.1, .min_area = 1e-2, .audit_points = 0};
     const radiosity::Solution solution = scenes::solved(scene, options);
     const radiosity::FinalGather light{scene, solution.mesh, solution.frame};
-    radiosity::Camera camera;
-    camera.eye = {0, -6, 0};
-    camera.field_of_view = 30;
+    const radiosity::Camera camera{.eye = {0, -6, 0}, .field_of_view = 30};
     constexpr std::uint32_t width = 80, height = 60, finer = 8;
     const radiosity::View coarse_view = radiosity::make_view(camera, {width, height});
     const radiosity::View fine_view = radiosity::make_view(camera, {width * finer, height * finer});

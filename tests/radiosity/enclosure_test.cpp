@@ -130,10 +130,7 @@ std::vector<Corners> box_of_polygons(const glm::dvec3& lo, const glm::dvec3& hi)
 // All surfaces reflect rho and emit 1 - rho.
 radiosity::Solution furnace(radiosity::Scene scene, double rho, double epsilon = 0.05) {
   scene.materials = {scenes::furnace_material(rho)};
-  radiosity::Options options;
-  options.epsilon = epsilon;
-  options.min_area = 1e-3;
-  options.audit_points = 0;
+  const radiosity::Options options{.epsilon = epsilon, .min_area = 1e-3, .audit_points = 0};
   return scenes::solved(scene, options);
 }
 

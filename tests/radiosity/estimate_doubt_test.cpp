@@ -154,11 +154,7 @@ TEST_CASE("light through a hole of any size: the estimate is no less than a thir
   for (int k = 0; k < 12; ++k) {
     const double hole = std::pow(10.0, -3.5 + 3.0 * (k + random.uniform()) / 12.0);
     const LightThroughHole through{hole, random};
-    radiosity::Options options;
-    options.epsilon = 0.02;
-    options.min_area = 1e-4;
-    options.audit_points = 16;
-    options.threads = 1;
+    const radiosity::Options options{.epsilon = 0.02, .min_area = 1e-4, .audit_points = 16, .threads = 1};
     const radiosity::Solution solution = scenes::solved(through.scene, options);
     double error = 0.0, norm = 0.0;
     for (const radiosity::MeshFace& face : solution.mesh.faces) {
@@ -213,11 +209,8 @@ TEST_CASE("an estimate from a sample of the links is the same for every sample, 
     radiosity::Scene scene;
     scene.materials = {{"lamp", radiosity::Color{0.0}, radiosity::Color{10.0}}, {"wall", radiosity::Color{0.7}, radiosity::Color{0.0}}};
     scene.objects = {scenes::plate("lamp", {{1, 1, 9}, {1, 2, 9}, {2, 2, 9}, {2, 1, 9}}, 0), scenes::object("block", block.object, 1)};
-    radiosity::Options options;
-    options.threads = 1;
-    options.audit_points = 0;
-    options.indirect = radiosity::Indirect::links;
-    options.seed = seed + static_cast<std::uint64_t>(k);
+    const radiosity::Options options{
+        .indirect = radiosity::Indirect::links, .audit_points = 0, .threads = 1, .seed = seed + static_cast<std::uint64_t>(k)};
     radiosity::detail::Run run{scene, options, {}, {}};
     namespace stage = radiosity::stage;
     for (const auto next : {stage::build, stage::refine, stage::expose, stage::link, stage::solve}) { REQUIRE_FALSE(next(run)); }
@@ -247,8 +240,7 @@ TEST_CASE("what no segment found is estimated from all such pairs together: ligh
   int audited = 0;
   for (int k = 0; k < scenes_drawn; ++k) {
     const double hole = 0.015 * std::pow(3.0, (k + random.uniform()) / scenes_drawn);
-    radiosity::Options options;
-    options.epsilon = k % 2 == 0 ? 0.03 : 0.01;
+    radiosity::Options options{.epsilon = k % 2 == 0 ? 0.03 : 0.01};
     options.min_area = 1e-3;  // of what reflects, a seventeenth of the scene
     options.audit_points = 200;
     options.threads = 1;

@@ -88,14 +88,13 @@ Scene columns(Between& between) {
 
 // How far the estimate of the leaves' error lies outside what path tracing found: 1 within the interval.
 double off(const Scene& scene, double epsilon, double min_area, radiosity::Indirect indirect, std::uint64_t seed) {
-  radiosity::Options options;
-  options.threads = 1;
-  options.epsilon = epsilon;
-  options.min_area = min_area;
-  options.indirect = indirect;
-  options.audit_points = 400;
-  options.reconstruction = radiosity::Reconstruction::none;
-  options.seed = seed;
+  const radiosity::Options options{.epsilon = epsilon,
+                                   .min_area = min_area,
+                                   .indirect = indirect,
+                                   .reconstruction = radiosity::Reconstruction::none,
+                                   .audit_points = 400,
+                                   .threads = 1,
+                                   .seed = seed};
   const radiosity::Audit audit = scenes::solved(scene, options).audit;
   REQUIRE(audit.leaf_error);
   REQUIRE(audit.estimated_leaf_error);

@@ -88,13 +88,11 @@ double true_error(const radiosity::Scene& scene, const radiosity::Solution& solu
 }
 
 radiosity::Options by_target(double target) {
-  radiosity::Options options;
-  options.refinement = radiosity::Refinement::a_posteriori;
-  options.target = target;
-  options.audit_points = 0;
-  options.reconstruction = radiosity::Reconstruction::none;
-  options.threads = 1;
-  return options;
+  return {.refinement = radiosity::Refinement::a_posteriori,
+          .target = target,
+          .reconstruction = radiosity::Reconstruction::none,
+          .audit_points = 0,
+          .threads = 1};
 }
 
 }  // namespace

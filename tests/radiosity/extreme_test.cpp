@@ -164,10 +164,7 @@ TEST_CASE("however many objects are buried one sentence counts them, and each bu
   scene.materials.push_back({"bulb", Color{0.0}, Color{1.0}});
   const auto dark = static_cast<std::uint32_t>(scene.materials.size() - 2);
   scene.objects.push_back(scenes::object("crate", scenes::box({0.2, 0.2, 0.2}, {0.8, 0.8, 0.8}), dark));
-  radiosity::Options options;
-  options.audit_points = 0;
-  options.epsilon = 0.5;
-  options.min_area = 0.1;
+  const radiosity::Options options{.epsilon = 0.5, .min_area = 0.1, .audit_points = 0};
   for (const int count : {1, 2, 30}) {
     Scene full = scene;
     for (int i = 0; i < count; ++i) {
@@ -187,8 +184,7 @@ TEST_CASE("however many objects are buried one sentence counts them, and each bu
 }
 
 TEST_CASE("a scene is closed by no more than its links explain: where a thousandth of the light is missing it is refused") {
-  radiosity::Options options;
-  options.audit_points = 0;
+  radiosity::Options options{.audit_points = 0};
   // Links that reach over many leaves err by what their linear kernels leave, some per cent in the corners of a room.
   options.epsilon = 0.1;
   options.min_area = 1e-3;
@@ -281,10 +277,7 @@ TEST_CASE("closure: a plate in the plane of a wall, but beyond the wall, does no
     for (std::uint32_t i = 0; i < 6; ++i) { faces.push_back({i, (i + 1) % 6, 6 + (i + 1) % 6, 6 + i}); }
     scene.objects = {scenes::object("room", raycast::Mesh::make(corners, faces).object, 0, true),
                      scenes::plate("lamp", {{x0, 2, 0.5}, {x1, 2, 0.5}, {x1, 2, 1.5}, {x0, 2, 1.5}}, 1)};
-    radiosity::Options options;
-    options.epsilon = 0.1;
-    options.min_area = 0.02;
-    options.audit_points = 0;
+    const radiosity::Options options{.epsilon = 0.1, .min_area = 0.02, .audit_points = 0};
     radiosity::Outcome outcome = radiosity::solve(scene, options);
     REQUIRE(outcome.solution);
     return std::move(*outcome.solution);

@@ -12,9 +12,7 @@
 namespace scenes {
 
 inline radiosity::Factors factors_of(const radiosity::Scene& scene, double error = 1e-3, unsigned threads = 1) {
-  radiosity::FactorOptions options;
-  options.error = error;
-  options.threads = threads;
+  const radiosity::FactorOptions options{.error = error, .threads = threads};
   radiosity::FactorsResult result = radiosity::factors(scene, options);
   REQUIRE(result.factors);
   return std::move(*result.factors);

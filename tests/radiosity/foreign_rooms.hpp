@@ -52,9 +52,7 @@ inline void add_ceiling_lamp(Soup& out, const glm::dvec3& lo, const glm::dvec3& 
 
 // Mean radiosity of each group of the soup, by its name without a number.
 inline std::map<std::string, radiosity::Color> light_of(const Soup& soup, const radiosity::Intake& intake) {
-  radiosity::Options options;
-  options.epsilon = 0.05;
-  options.audit_points = 0;
+  const radiosity::Options options{.epsilon = 0.05, .audit_points = 0};
   const radiosity::Outcome outcome = radiosity::solve({soup.materials, intake.objects}, options);
   std::map<std::string, radiosity::Color> sum;
   std::map<std::string, double> area;

@@ -205,9 +205,7 @@ TEST_CASE("input faces: on a wide ground the inside of a closed hut is dark") {
   const std::array<glm::dvec3, 4> foot{middle - s - t, middle + s - t, middle + s + t, middle - s + t};
   for (std::size_t i = 0; i < 4; ++i) { sheet("wall", {foot[i], foot[(i + 1) % 4], foot[(i + 1) % 4] + up, foot[i] + up}); }
   sheet("roof", {foot[0] + up, foot[1] + up, foot[2] + up, foot[3] + up});
-  radiosity::Options options;
-  options.epsilon = 0.02;
-  options.audit_points = 0;
+  const radiosity::Options options{.epsilon = 0.02, .audit_points = 0};
   const radiosity::Solution solution = scenes::solved(scene, options);
   double inside = 0.0;
   for (const radiosity::MeshFace& face : solution.mesh.faces) {
@@ -232,8 +230,7 @@ TEST_CASE("input faces: in a concave room of concave faces a furnace glows evenl
   radiosity::Scene scene{{scenes::furnace_material(0.6)}, {scenes::object("room", raycast::Csg::make(room).object, 0, true)}};
   for (const double epsilon : {0.5, 0.05}) {
     CAPTURE(epsilon);
-    radiosity::Options options;
-    options.epsilon = epsilon;
+    radiosity::Options options{.epsilon = epsilon};
     options.light_epsilon = epsilon;  // or links of whole faces are split by their light
     options.min_area = 1e-3;
     options.audit_points = 0;
@@ -254,8 +251,7 @@ TEST_CASE("input faces: in a concave room of concave faces a furnace glows evenl
 
 TEST_CASE("input faces: a sheet of which nothing is left is no surface of the report") {
   const radiosity::Scene scene{{scenes::furnace_material(0.5)}, {scenes::object("wall", wall())}};
-  radiosity::Options options;
-  options.audit_points = 0;
+  const radiosity::Options options{.audit_points = 0};
   const radiosity::Outcome outcome = radiosity::solve(scene, options);
   REQUIRE(outcome.solution);
   CHECK(outcome.solution->audit.surfaces.size() == 6 + 3 * 4);

@@ -90,8 +90,7 @@ TEST_CASE("intake: of flat things that lie on larger ones the smaller is seen, i
       all.polygon(outline, is_decal ? 0 : room.material[k]);
       all.group.back() = group_of(is_decal ? decals[k - room.count()].name : room.names[room.group[k]]);
     }
-    radiosity::IntakeOptions options;
-    options.open_sides_unknown = sides_unknown;
+    const radiosity::IntakeOptions options{.open_sides_unknown = sides_unknown};
     const radiosity::Intake taken = all.take_in(options);
     CAPTURE(round, size, sides_unknown);
     CHECK(count_of(taken, ChangeKind::decal_laid) > 0);
@@ -128,8 +127,7 @@ TEST_CASE("intake: a ceiling is no rug of the floor above it, and a sheet of the
       if (!lower_first) { other(); }
       soup.names = lower_first ? std::vector<std::string>{"ceiling", "floor"} : std::vector<std::string>{"floor", "ceiling"};
       soup.group = {0, 1};
-      radiosity::IntakeOptions options;
-      options.open_sides_unknown = true;
+      const radiosity::IntakeOptions options{.open_sides_unknown = true};
       const radiosity::Intake taken = soup.take_in(options);
       CHECK(taken.faces == 4);
       CHECK(taken.objects.front().name == (lower_first ? "ceiling.1" : "floor.1"));

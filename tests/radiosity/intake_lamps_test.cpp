@@ -111,8 +111,7 @@ TEST_CASE("intake: a bare room whose lamp is sunk into its ceiling or a wall is 
     const int axis = of_ceiling ? 2 : 0;
     middle[axis] = size[axis] + number_in(random, -0.08, 0.08);  // of a lamp of .2 m
     soup::add_box(soup, middle - 0.1, middle + 0.1, 1, false, 1);
-    radiosity::IntakeOptions options;
-    options.sides_unknown = !sides_told;
+    radiosity::IntakeOptions options{.sides_unknown = !sides_told};
     const radiosity::Intake taken = soup.take_in(options);
     INFO("round " << round);
     const bool room = inwards || !sides_told;  // what is told to look outwards stays a solid, with a lamp on it
@@ -147,11 +146,8 @@ TEST_CASE("a run whose light reaches nothing says so") {
   RandomRooms random(3);
   for (const double under : {0.1, -0.1}) {  // the lamp lies above the ceiling
     const Soup room = furnished_room(random, false, under);
-    radiosity::Options options;
-    options.epsilon = 0.05;
-    options.audit_points = 0;
-    radiosity::IntakeOptions inside;
-    inside.eyes = {{1, 1, 1}};
+    const radiosity::Options options{.epsilon = 0.05, .audit_points = 0};
+    const radiosity::IntakeOptions inside{.eyes = {{1, 1, 1}}};
     const radiosity::Outcome outcome = radiosity::solve({room.materials, room.take_in(inside).objects}, options);
     REQUIRE(outcome.solution);
     const std::vector<std::string>& warnings = outcome.solution->audit.warnings;

@@ -53,8 +53,7 @@ TEST_CASE("intake: a closed shell around a lamp is a room, whichever way it look
   soup::add_box(empty, {0, 0, 0}, {1, 1, 1}, 1, true);
   CHECK(measure(empty.take_in().objects).volume == Approx(1.0).epsilon(1e-12));
   CHECK(count_of(empty.take_in(), ChangeKind::inside_out) == 1);
-  radiosity::IntakeOptions options;
-  options.eyes = {{0.5, 0.5, 0.5}};
+  const radiosity::IntakeOptions options{.eyes = {{0.5, 0.5, 0.5}}};
   CHECK(measure(empty.take_in(options).objects).rooms == 1);
 }
 
@@ -196,8 +195,7 @@ TEST_CASE("intake: a closed thing around a bulb stays a thing while an eye, or i
     soup::add_box(soup, lo, lo + size, 1, false, shines ? 1 : 0);
     soup::add_box(soup, lo + glm::dvec3(0.1), lo + glm::dvec3(0.2), 1, false, 1);
     if (!room_first) { room(); }
-    radiosity::IntakeOptions options;
-    options.sides_unknown = sides_unknown;
+    radiosity::IntakeOptions options{.sides_unknown = sides_unknown};
     if (eye) { options.eyes = {{0.5, 3.0 * unit(random) + 0.5, 2.0}}; }
     const radiosity::Intake intake = soup.take_in(options);
     check_sound(soup, intake);
@@ -216,8 +214,7 @@ TEST_CASE("intake: walls that shine stay what walls that do not shine are") {
       soup::add_box(soup, {-0.2, -0.2, -0.2}, {4.2, 4.2, 3.2}, 1, false, material);
       soup::add_box(soup, {0, 0, 0}, {4, 4, 3}, 1, true, material);
       if (furnished) { soup::add_box(soup, {1, 1, 0.1}, {2, 2, 1}, 1, false, material); }
-      radiosity::IntakeOptions inside;
-      inside.eyes = {{0.5, 0.5, 0.5}};
+      const radiosity::IntakeOptions inside{.eyes = {{0.5, 0.5, 0.5}}};
       const radiosity::Intake intake = soup.take_in(inside);
       check_sound(soup, intake);
       CHECK(count_of(intake, ChangeKind::room) == 0);
@@ -298,8 +295,7 @@ TEST_CASE("intake: sheets have two sides where the caller, the material or the f
   Soup soup;
   soup.polygon({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}});
   CHECK(measure(soup.take_in().objects).area == Approx(1.0));
-  radiosity::IntakeOptions options;
-  options.two_sided = true;
+  const radiosity::IntakeOptions options{.two_sided = true};
   CHECK(measure(soup.take_in(options).objects).area == Approx(2.0));
   soup.two_sided = {1, 0};
   CHECK(measure(soup.take_in().objects).area == Approx(2.0));

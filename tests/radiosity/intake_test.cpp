@@ -39,8 +39,7 @@ TEST_CASE("intake: a box of loose triangles becomes one solid of six faces") {
   CHECK(count_of(intake, ChangeKind::merged) == soup.count() - 6);
   CHECK(count_of(intake, ChangeKind::t_joint) == 0);
 
-  radiosity::IntakeOptions as_given;
-  as_given.merge = false;
+  const radiosity::IntakeOptions as_given{.merge = false};
   CHECK(soup.take_in(as_given).faces == soup.count());
 }
 

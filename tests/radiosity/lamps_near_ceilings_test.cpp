@@ -31,10 +31,7 @@ TEST_CASE("a lamp close under a ceiling, hung or touching it, gives a closed roo
     scene.materials = {{"wall", radiosity::Color{0.7}, radiosity::Color{0.0}}, {"lamp", radiosity::Color{0.1}, radiosity::Color{40.0}}};
     scene.objects = {scenes::object("room", scenes::box({0, 0, 0}, size), 0, true),
                      scenes::object("lamp", scenes::box(lo, lo + glm::dvec3{side, side, thick}), 1)};
-    radiosity::Options options;
-    options.epsilon = 0.02;
-    options.min_area = 2e-4;
-    options.audit_points = 0;
+    const radiosity::Options options{.epsilon = 0.02, .min_area = 2e-4, .audit_points = 0};
     const radiosity::Audit audit = scenes::solved(scene, options).audit;
     CAPTURE(round, side, gap, *audit.reflected_share, audit.row_sum.min, audit.row_sum.max);
     CHECK(audit.stored_rays > 0);
@@ -64,8 +61,7 @@ TEST_CASE("a wide lamp close under a ceiling lights a floor as one that lies on 
                                                        {corner.x + extent.x, corner.y + extent.y, z},
                                                        {corner.x + extent.x, corner.y, z}}),
                                       1)};
-      radiosity::Options options;
-      options.audit_points = 0;
+      const radiosity::Options options{.audit_points = 0};
       double light = 0.0;
       for (const radiosity::SurfaceMean& surface : scenes::solved(scene, options).audit.surfaces) {
         if (surface.name == "room.z0") { light = surface.radiosity.x; }

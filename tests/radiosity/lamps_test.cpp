@@ -80,12 +80,7 @@ Scene room_around(std::uint64_t seed, std::uint32_t n) {
 }
 
 radiosity::Options by_rays(double epsilon = 0.02) {
-  radiosity::Options options;
-  options.epsilon = epsilon;
-  options.threads = 1;
-  options.audit_points = 0;
-  options.indirect = radiosity::Indirect::rays;
-  return options;
+  return {.epsilon = epsilon, .indirect = radiosity::Indirect::rays, .audit_points = 0, .threads = 1};
 }
 
 // Mean irradiance, weighted by area, of what does not shine: by surface.

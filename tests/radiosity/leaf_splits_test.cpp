@@ -47,13 +47,7 @@ struct LeafSplitSeed {
 };
 
 radiosity::Options leaf_split_options(double epsilon) {
-  radiosity::Options options;
-  options.epsilon = epsilon;
-  options.min_area = 4e-4;
-  options.indirect = radiosity::Indirect::links;
-  options.audit_points = 0;
-  options.threads = 2;
-  return options;
+  return {.epsilon = epsilon, .min_area = 4e-4, .indirect = radiosity::Indirect::links, .audit_points = 0, .threads = 2};
 }
 
 // A run whose links are evaluated and whose leaves are as refinement has left them.

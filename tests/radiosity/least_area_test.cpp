@@ -25,9 +25,7 @@ TEST_CASE("least area: form factors leave no part below min_area, and link what 
   const auto log_between = [&](double a, double b) { return a * std::pow(b / a, std::uniform_real_distribution<double>{}(random)); };
   const radiosity::Scene scene = scenes::room_with_box();
   for (int k = 0; k < 5; ++k) {
-    radiosity::Options options;
-    options.epsilon = log_between(0.02, 0.2);
-    options.min_area = log_between(1e-4, 1e-2);
+    radiosity::Options options{.epsilon = log_between(0.02, 0.2), .min_area = log_between(1e-4, 1e-2)};
     options.light_epsilon = 1e6;  // the light of lamps asks for nothing
     options.indirect = radiosity::Indirect::links;
     options.audit_points = 0;

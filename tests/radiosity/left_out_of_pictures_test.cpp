@@ -31,10 +31,7 @@ radiosity::Scene world(const std::vector<radiosity::SceneObject>& things, double
 }
 
 radiosity::Solution coarse(const radiosity::Scene& scene) {
-  radiosity::Options options;
-  options.epsilon = 0.1;
-  options.min_area = 1e-2;
-  options.audit_points = 0;
+  const radiosity::Options options{.epsilon = 0.1, .min_area = 1e-2, .audit_points = 0};
   return scenes::solved(scene, options);
 }
 

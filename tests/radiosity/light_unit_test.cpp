@@ -24,13 +24,7 @@ using scenes::solved;
 
 namespace {
 
-radiosity::Options few_links() {
-  radiosity::Options options;
-  options.epsilon = 0.1;
-  options.audit_points = 40;
-  options.threads = 1;
-  return options;
-}
+radiosity::Options few_links() { return {.epsilon = 0.1, .audit_points = 40, .threads = 1}; }
 
 // The emission of a light room is 5; a power of two away it stays a normal number, and so does all that it lights.
 Scene times(Scene scene, int exponent) {

@@ -42,13 +42,8 @@ struct LinkSplitSeed {
 };
 
 radiosity::Options link_split_options(double epsilon) {
-  radiosity::Options options;
-  options.epsilon = epsilon;
-  options.min_area = 10.0 * epsilon * epsilon;
-  options.indirect = radiosity::Indirect::links;
-  options.audit_points = 0;
-  options.threads = 2;
-  return options;
+  return {
+      .epsilon = epsilon, .min_area = 10.0 * epsilon * epsilon, .indirect = radiosity::Indirect::links, .audit_points = 0, .threads = 2};
 }
 
 // A closed room in which a lamp hangs close under the ceiling, so that it hides much of the room from that, with two boxes.

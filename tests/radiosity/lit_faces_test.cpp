@@ -24,10 +24,7 @@ std::uint64_t leaves(std::vector<radiosity::SceneObject> objects, double emissio
   scene.materials = {{"bright", radiosity::Color{0.5}, radiosity::Color{1.0}},
                      {"other", radiosity::Color{0.5}, radiosity::Color{emission}}};
   scene.objects = std::move(objects);
-  radiosity::Options options;
-  options.epsilon = 0.02;
-  options.min_area = 1e-3;
-  options.audit_points = 0;
+  const radiosity::Options options{.epsilon = 0.02, .min_area = 1e-3, .audit_points = 0};
   return scenes::solved(scene, options).audit.leaves;
 }
 

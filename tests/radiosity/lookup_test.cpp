@@ -33,10 +33,7 @@ namespace {
 using radiosity::Color;
 
 radiosity::Solution solution(const radiosity::Scene& scene, double epsilon = 0.02) {
-  radiosity::Options options;
-  options.epsilon = epsilon;
-  options.min_area = 1e-3;
-  options.audit_points = 0;
+  const radiosity::Options options{.epsilon = epsilon, .min_area = 1e-3, .audit_points = 0};
   const radiosity::Outcome outcome = radiosity::solve(scene, options);
   REQUIRE(outcome.solution);
   return *outcome.solution;

@@ -112,14 +112,12 @@ inline radiosity::Scene many(std::uint32_t k, Things kind, std::optional<double>
 
 // Without an audit, all light by links, with clusters from so many input faces.
 inline radiosity::Options clustered(double epsilon, std::uint32_t from = 2) {
-  radiosity::Options options;
-  options.epsilon = epsilon;
-  options.min_area = 0.02 * epsilon;
-  options.audit_points = 0;
-  options.threads = 1;
-  options.indirect = radiosity::Indirect::links;
-  options.cluster_from = from;
-  return options;
+  return {.epsilon = epsilon,
+          .min_area = 0.02 * epsilon,
+          .indirect = radiosity::Indirect::links,
+          .cluster_from = from,
+          .audit_points = 0,
+          .threads = 1};
 }
 
 }  // namespace scenes

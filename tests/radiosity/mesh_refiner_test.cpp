@@ -23,13 +23,7 @@
 namespace {
 
 radiosity::Options coarse(double mesh_error) {
-  radiosity::Options options;
-  options.epsilon = 0.08;
-  options.min_area = 5e-3;
-  options.audit_points = 0;
-  options.threads = 1;
-  options.mesh_error = mesh_error;
-  return options;
+  return {.epsilon = 0.08, .min_area = 5e-3, .mesh_error = mesh_error, .audit_points = 0, .threads = 1};
 }
 
 // A box at random on a floor under a square lamp: an edge of a shadow that no regular mesh follows.

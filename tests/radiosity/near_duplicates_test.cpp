@@ -125,9 +125,7 @@ TEST_CASE("near duplicates: the floor is as bright as with the outermost alone",
   for (int trial = 0; trial < 8; ++trial) {
     Scene outermost;
     const Scene scene = chain(random, outermost);
-    radiosity::Options options;
-    options.threads = 1;
-    options.audit_points = 0;
+    const radiosity::Options options{.audit_points = 0, .threads = 1};
     const auto floor = [&](const Scene& of) {
       const radiosity::Solution solution = scenes::solved(of, options);
       double light = 0.0, area = 0.0;

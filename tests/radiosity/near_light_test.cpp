@@ -34,9 +34,7 @@ TEST_CASE("near places are lit by a lamp of any size at any distance as its form
   radiosity::Scene scene;
   scene.materials = {{"white", radiosity::Color{0.5}, radiosity::Color{0.0}}, {"lamp", radiosity::Color{0.0}, radiosity::Color{1.0}}};
   scene.objects = {scenes::square("floor", {0, 0, 0}, 1.0, true), scenes::square("lamp", middle, half, false, 1)};
-  radiosity::Options options;
-  options.epsilon = 0.1;
-  options.audit_points = 0;
+  const radiosity::Options options{.epsilon = 0.1, .audit_points = 0};
   const radiosity::Solution solution = scenes::solved(scene, options);
   const radiosity::Lookup lookup{scene, solution.mesh, solution.frame};
   const radiosity::DirectLight direct{

@@ -143,9 +143,7 @@ TEST_CASE("what is wrong at outlines is what rays through the picture find", "[m
     for (std::uint64_t k = 0; k < 2; ++k) {
       CAPTURE(seed, kind, k);
       const radiosity::Scene scene = round_on_floor(kind, seed + k);
-      radiosity::Options options;
-      options.epsilon = 0.03;
-      options.audit_points = 0;
+      const radiosity::Options options{.epsilon = 0.03, .audit_points = 0};
       const radiosity::Solution solution = scenes::solved(scene, options);
       const radiosity::FinalGather light{scene, solution.mesh, solution.frame};
       const std::vector<radiosity::Surface> surfaces = scenes::boundaries(light.objects());
@@ -189,10 +187,7 @@ TEST_CASE("a strip over pixels: the mean of its squared parts over all places") 
 
 TEST_CASE("a mesh for a camera is refined at its outlines until they are as good as was asked for", "[mesh][accuracy]") {
   const radiosity::Scene scene = round_on_floor(0, 5);
-  radiosity::Options options;
-  options.epsilon = 0.05;
-  options.audit_points = 0;
-  options.mesh_error = 0.02;
+  radiosity::Options options{.epsilon = 0.05, .mesh_error = 0.02, .audit_points = 0};
   radiosity::Control control;
   control.viewpoint = Pinhole{{3.0, 0.5, 1.2}, {0.0, 0.0, 0.5}}.viewpoint(1e-6);
   options.threads = 1;

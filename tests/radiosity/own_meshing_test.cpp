@@ -46,13 +46,7 @@ struct Halve {
   }
 };
 
-radiosity::Options meshing_options() {
-  radiosity::Options options;
-  options.epsilon = 0.05;
-  options.min_area = 2e-3;
-  options.audit_points = 400;
-  return options;
-}
+radiosity::Options meshing_options() { return {.epsilon = 0.05, .min_area = 2e-3, .audit_points = 400}; }
 
 // Squared norm of the reflected radiosity.
 double reflected_square(const radiosity::Scene& scene, const radiosity::Solution& solution) {

@@ -48,10 +48,7 @@ TEST_CASE("an object of the user's own with four methods is lit, shades, is audi
     std::shared_ptr<const raycast::Object> ball = raycast::Sphere::make(centre, radius).object;
     if (own) { ball = std::make_shared<const OwnBall>(centre, radius); }
     scene.objects.push_back(scenes::object("ball", ball));
-    radiosity::Options options;
-    options.epsilon = 0.05;
-    options.min_area = 2e-3;
-    options.audit_points = 2000;
+    const radiosity::Options options{.epsilon = 0.05, .min_area = 2e-3, .audit_points = 2000};
     const radiosity::Outcome outcome = radiosity::solve(scene, options);
     REQUIRE(outcome.solution);
     solutions[own] = *outcome.solution;

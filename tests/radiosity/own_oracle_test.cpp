@@ -36,13 +36,7 @@ void check_same(const Solution& one, const Solution& other) {
   }
 }
 
-Options oracle_options() {
-  Options options;
-  options.epsilon = 0.05;
-  options.min_area = 2e-3;
-  options.audit_points = 0;
-  return options;
-}
+Options oracle_options() { return {.epsilon = 0.05, .min_area = 2e-3, .audit_points = 0}; }
 
 // The rule of the F-oracle, written down again: input faces of many parts are split; patches are linked when the estimate is at most
 // epsilon or both are small; else the larger one is split.
@@ -83,10 +77,7 @@ TEST_CASE("a user's oracle that repeats the rule of F-refinement gives the same 
 }
 
 TEST_CASE("a user's oracle that repeats the rule of BF-refinement gives the same bits") {
-  Options options;
-  options.refinement = radiosity::Refinement::a_posteriori;
-  options.target = 0.05;
-  options.audit_points = 0;
+  Options options{.refinement = radiosity::Refinement::a_posteriori, .target = 0.05, .audit_points = 0};
   const radiosity::Scene scene = scenes::room_with_box();
   const Solution ours = scenes::solved(scene, options);
   std::size_t of_links = 0, of_leaves = 0, of_others = 0;

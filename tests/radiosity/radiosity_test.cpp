@@ -29,13 +29,7 @@ using scenes::solved;
 namespace {
 
 // Fast options: coarse refinement and no audit.
-Options coarse() {
-  Options options;
-  options.epsilon = 0.03;
-  options.min_area = 1e-4;
-  options.audit_points = 0;
-  return options;
-}
+Options coarse() { return {.epsilon = 0.03, .min_area = 1e-4, .audit_points = 0}; }
 
 // Largest |B - 1| over all corners and all exposed leaves.
 double furnace_error(const Solution& solution) {
@@ -260,11 +254,7 @@ TEST_CASE("a run that is cancelled before its first generation gives no solution
 TEST_CASE("a run that is cancelled while its links are solved ends with their solution, by conjugate gradients, and says so") {
   radiosity::Scene scene = scenes::room_with_box();
   for (radiosity::Material& material : scene.materials) { material.reflectance = radiosity::Color{1.0 - 1e-9}; }  // the others take hours
-  radiosity::Options options;
-  options.epsilon = 0.2;
-  options.min_area = 0.01;
-  options.audit_points = 0;
-  options.max_iterations = 4'000'000'000;
+  radiosity::Options options{.epsilon = 0.2, .min_area = 0.01, .max_iterations = 4'000'000'000, .audit_points = 0};
   const radiosity::Outcome whole = radiosity::solve(scene, options);
   REQUIRE(whole.solution);
   for (const radiosity::Solver solver : {radiosity::Solver::jacobi, radiosity::Solver::gauss_seidel, radiosity::Solver::southwell}) {
@@ -290,9 +280,7 @@ TEST_CASE("a run that is cancelled while its links are solved ends with their so
 }
 
 TEST_CASE("with a time limit the best so far is returned: a valid solution, with less estimated error for more time") {
-  Options options;
-  options.refinement = radiosity::Refinement::a_posteriori;
-  options.audit_points = 0;
+  Options options{.refinement = radiosity::Refinement::a_posteriori, .audit_points = 0};
   double estimates[2] = {};
   for (int more = 0; more < 2; ++more) {
     options.time = more == 0 ? 1e-6 : 0.5;

@@ -125,11 +125,7 @@ TEST_CASE("casters cover once what does not shine and is exposed, where less lig
 
 TEST_CASE("rays do not depend on the number of threads") {
   const radiosity::Scene scene = scenes::many(150, scenes::Things::boxes);
-  Options options;
-  options.epsilon = 0.05;
-  options.audit_points = 0;
-  options.indirect = Indirect::rays;
-  options.threads = 1;
+  Options options{.epsilon = 0.05, .indirect = Indirect::rays, .audit_points = 0, .threads = 1};
   const radiosity::Solution one = scenes::solved(scene, options);
   options.threads = 3;
   const radiosity::Solution three = scenes::solved(scene, options);
@@ -235,10 +231,7 @@ TEST_CASE("rays of small things are as good beside something far away") {
     scene.objects = {scenes::square("floor", {0.0, 0.0, 0.0}, 1.0, true),
                      scenes::object("box", scenes::box({-0.3, -0.3, 0.0}, {0.3, 0.3, 0.6})),
                      scenes::square("lamp", {0.8, 0.0, 1.5}, 0.3, false, 1), scenes::square("far", {0.0, 0.0, -distance}, 1.0, false)};
-    Options options;
-    options.epsilon = 0.05;
-    options.audit_points = 0;
-    options.indirect = Indirect::rays;
+    const Options options{.epsilon = 0.05, .indirect = Indirect::rays, .audit_points = 0};
     const radiosity::Solution solution = scenes::solved(scene, options);
     std::vector<double> result{static_cast<double>(solution.audit.leaves)};
     for (const auto& surface : solution.audit.surfaces) { result.push_back(surface.radiosity.x); }
@@ -271,10 +264,7 @@ TEST_CASE("narrow gaps: rows of form factors near 1 before they are closed, and 
         scene.objects.push_back(scenes::object("plate", scenes::box(lo, lo + glm::dvec3{thick, width, width}), 1));
       }
     }
-    Options options;
-    options.epsilon = 0.02;
-    options.min_area = 2e-4;
-    options.audit_points = 500;
+    const Options options{.epsilon = 0.02, .min_area = 2e-4, .audit_points = 500};
     const radiosity::Audit audit = scenes::solved(scene, options).audit;
     REQUIRE(audit.leaf_error);
     CAPTURE(round, width, gap / width, audit.stored_rays, audit.leaf_error->relative_l2, audit.leaf_error->low, audit.leaf_error->high);
@@ -288,9 +278,7 @@ TEST_CASE("narrow gaps: rows of form factors near 1 before they are closed, and 
 TEST_CASE("which runs cast rays") {
   const radiosity::Scene few = scenes::room_with_box();
   const radiosity::Scene many = scenes::many(150, scenes::Things::boxes);
-  Options options;
-  options.epsilon = 0.1;
-  options.audit_points = 0;
+  Options options{.epsilon = 0.1, .audit_points = 0};
   CHECK(scenes::solved(few, options).audit.stored_rays == 0);
   CHECK(scenes::solved(many, options).audit.stored_rays > 0);
   options.indirect = Indirect::rays;
@@ -307,10 +295,7 @@ TEST_CASE("which runs cast rays") {
 }
 
 TEST_CASE("without light, or without reflection, no ray is cast") {
-  Options options;
-  options.epsilon = 0.1;
-  options.audit_points = 0;
-  options.indirect = Indirect::rays;
+  Options options{.epsilon = 0.1, .indirect = Indirect::rays, .audit_points = 0};
   const auto check_dark = [&](const radiosity::Scene& scene, double emission) {
     for (const bool lit : {false, true}) {
       radiosity::Scene dark = scene;
@@ -329,10 +314,7 @@ TEST_CASE("without light, or without reflection, no ray is cast") {
 
 TEST_CASE("stored rays obey the memory limit and the cancel flag") {
   const radiosity::Scene scene = scenes::many(150, scenes::Things::boxes);
-  Options options;
-  options.epsilon = 0.01;
-  options.audit_points = 0;
-  options.memory = 20'000'000;
+  Options options{.epsilon = 0.01, .audit_points = 0, .memory = 20'000'000};
   const radiosity::Solution coarser = scenes::solved(scene, options);
   CHECK_FALSE(coarser.audit.shortage.empty());
   CHECK(coarser.audit.epsilon > options.epsilon);

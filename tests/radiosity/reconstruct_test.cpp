@@ -180,10 +180,7 @@ TEST_CASE("the mesh has no face that lies wholly under one of the same plane") {
                            {}};
     scene.objects = {scenes::square("ceiling", {0, 0, 1}, 1.0, false), scenes::square("floor", {0, 0, 0}, 1.0, true),
                      scenes::square("lamp", centre, r, false, 1)};
-    radiosity::Options options;
-    options.epsilon = 0.02;
-    options.min_area = 1e-4;
-    options.audit_points = 0;
+    const radiosity::Options options{.epsilon = 0.02, .min_area = 1e-4, .audit_points = 0};
     const auto outcome = radiosity::solve(scene, options);
     REQUIRE(outcome.solution);
     const radiosity::Mesh& mesh = outcome.solution->mesh;
@@ -227,9 +224,7 @@ TEST_CASE("corners of the mesh on the edges of blades have normals of their own 
     radiosity::Scene scene = lone(raycast::Superquadric::make({0, 0, 0}, {1, 1, 1}, uniform(0.8, 1.2), uniform(2.5, 3.5)).object);
     scene.materials.push_back({"lamp", radiosity::Color{0.0}, radiosity::Color{10.0}});
     scene.objects.push_back(scenes::object("lamp", scenes::polygon({{3, 3, 1}, {3, 4, 1}, {3, 4, -1}, {3, 3, -1}}), 1));
-    radiosity::Options options;
-    options.epsilon = 0.02;
-    options.audit_points = 0;
+    const radiosity::Options options{.epsilon = 0.02, .audit_points = 0};
     const auto outcome = radiosity::solve(scene, options);
     REQUIRE(outcome.solution);
     const radiosity::Mesh& mesh = outcome.solution->mesh;
@@ -335,9 +330,7 @@ TEST_CASE("weighted reconstruction: over random facets it errs less than the con
     radiosity::Scene scene;
     scene.materials = {{"ground", radiosity::Color{0.5}, radiosity::Color{0.0}}, {"lamp", radiosity::Color{0.0}, radiosity::Color{1.0}}};
     scene.objects = {scenes::object("ground", raycast::Mesh::make(positions, faces).object, 0), scenes::plate("lamp", lamp, 1)};
-    radiosity::Options options;
-    options.threads = 1;
-    options.audit_points = 1000;
+    const radiosity::Options options{.audit_points = 1000, .threads = 1};
     const radiosity::Outcome outcome = radiosity::solve(scene, options);
     REQUIRE(outcome.solution);
     const radiosity::Audit& audit = outcome.solution->audit;

@@ -29,8 +29,7 @@ void compare_scene(const std::string& name) {
   const json::Value data = read(name + ".json");
   for (const std::size_t channel : {std::size_t{0}, std::size_t{3}}) {
     const reference::ReferenceScene scene = reference::read_scene(data, channel);
-    radiosity::Options options;
-    options.audit_points = 0;
+    const radiosity::Options options{.audit_points = 0};
     const radiosity::Outcome outcome = radiosity::solve(scene.scene, options);
     REQUIRE(outcome.solution);
     for (const bool leaf : {true, false}) {
@@ -69,10 +68,7 @@ TEST_CASE("reference: form factors of all polygon pairs within 1e-6 relative") {
 namespace {
 
 radiosity::Solution solved(const radiosity::Scene& scene, double epsilon, double min_area) {
-  radiosity::Options options;
-  options.epsilon = epsilon;
-  options.min_area = min_area;
-  options.audit_points = 0;
+  const radiosity::Options options{.epsilon = epsilon, .min_area = min_area, .audit_points = 0};
   return scenes::solved(scene, options);
 }
 

@@ -45,11 +45,7 @@ TEST_CASE("shortcuts: no bit changes where curved solids stick out through the w
     radiosity::Scene scene;
     scene.materials = {{"white", radiosity::Color{0.5}, radiosity::Color{1.0}}, {"grey", radiosity::Color{0.3}, radiosity::Color{0.0}}};
     scene.objects = std::move(objects);
-    radiosity::Options options;
-    options.epsilon = 0.3;
-    options.min_area = 0.02;
-    options.audit_points = 0;
-    options.threads = 1;
+    radiosity::Options options{.epsilon = 0.3, .min_area = 0.02, .audit_points = 0, .threads = 1};
     if (i % 2 == 0) {
       options.refinement = radiosity::Refinement::a_posteriori;
       options.target = 0.1;

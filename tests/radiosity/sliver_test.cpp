@@ -41,8 +41,7 @@ double brightest_with(const std::vector<glm::dvec3>& line) {
   }
   add("floor", raycast::Mesh::make(corners, faces), 0);
   add("lamp", raycast::Polygon::make({{0.9, 0.9, 1.9}, {0.9, 1.1, 1.9}, {1.1, 1.1, 1.9}, {1.1, 0.9, 1.9}}), 1);
-  radiosity::Options options;
-  options.audit_points = 0;
+  const radiosity::Options options{.audit_points = 0};
   const radiosity::Solution solution = scenes::solved(scene, options);
   CHECK(*std::max_element(solution.row_sum.begin(), solution.row_sum.end()) <= 1.1);
   double most = 0.0;

@@ -37,11 +37,7 @@ TEST_CASE("lamps in clusters that reach out of a room give it as much light as o
   const Soup soup = room_of_sunk_lamps();
   const radiosity::Intake taken = soup.take_in();
   const auto light_on_walls = [&](radiosity::Solver solver, radiosity::Indirect indirect) {
-    radiosity::Options options;
-    options.epsilon = 0.01;
-    options.audit_points = 0;
-    options.solver = solver;
-    options.indirect = indirect;
+    const radiosity::Options options{.epsilon = 0.01, .indirect = indirect, .solver = solver, .audit_points = 0};
     const radiosity::Outcome outcome = radiosity::solve({soup.materials, taken.objects}, options);
     REQUIRE(outcome.solution);
     CHECK((outcome.solution->audit.clusters > 0) == (indirect == radiosity::Indirect::rays));

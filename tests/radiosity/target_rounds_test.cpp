@@ -29,8 +29,7 @@ using radiosity::Color;
 using radiosity::Scene;
 
 TEST_CASE("error target: a tighter one never ends with a worse solution, and one out of reach ends with the best") {
-  radiosity::Options options;
-  options.threads = 1;
+  radiosity::Options options{.threads = 1};
   std::uint64_t links = 0;
   double high = 1.0;
   for (const radiosity::Refinement refinement : {radiosity::Refinement::a_priori, radiosity::Refinement::a_posteriori}) {
@@ -83,9 +82,7 @@ TEST_CASE("error target: the rounds are the same for any target as far as they g
     const double radius = 0.05 + 0.2 * random.uniform();
     scene.objects.push_back(
         {"ball", raycast::Sphere::make({random.uniform(), random.uniform(), radius + 0.1}, radius).object, {}, {material}});
-    radiosity::Options options;
-    options.audit_points = 400;
-    options.seed = static_cast<std::uint64_t>(k);
+    const radiosity::Options options{.audit_points = 400, .seed = static_cast<std::uint64_t>(k)};
     RoundsAsked before;
     for (const double wanted : {0.2, 0.08, 0.03, 0.015}) {
       RoundsAsked now = rounds_to(wanted, options, scene);
@@ -111,8 +108,7 @@ TEST_CASE("error target: however the noise of the audits falls, the rounds are t
     const double floor = 0.1 * random.uniform();
     const auto rounds = [&](double wanted) {
       std::vector<double> epsilons;
-      radiosity::Options options;
-      options.error = wanted;
+      const radiosity::Options options{.error = wanted};
       radiosity::Random noise{seed, key, static_cast<std::uint64_t>(1e6 * wanted)};  // of the audits
       radiosity::Random steers{seed, key, 0};                                        // the same for all targets
       const bool of_picture = k % 2 == 0;

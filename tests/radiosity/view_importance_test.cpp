@@ -149,13 +149,12 @@ TEST_CASE("a picture under a roof hardly depends on how large the plain around i
       scene.objects = {scenes::plate("roof", {corner(-1, -1, under), corner(-1, 1, under), corner(1, 1, under), corner(1, -1, under)}),
                        scenes::plate("black", {corner(-1, -1, under), corner(1, -1, under), corner(1, 1, under), corner(-1, 1, under)}, 3),
                        scenes::square("plain", {0, 0, 0}, plain, true, 1), scenes::object("sky", dome(1.5 * plain), 2)};
-      radiosity::Options options;
-      options.audit_points = 0;
-      options.reconstruction = radiosity::Reconstruction::none;
-      options.epsilon = 0.01;
-      options.min_area = 2e-4;
-      options.indirect = radiosity::Indirect::rays;
-      options.seed = seed;
+      const radiosity::Options options{.epsilon = 0.01,
+                                       .min_area = 2e-4,
+                                       .indirect = radiosity::Indirect::rays,
+                                       .reconstruction = radiosity::Reconstruction::none,
+                                       .audit_points = 0,
+                                       .seed = seed};
       radiosity::Control from_below;
       from_below.viewpoint = all_around(at + glm::dvec3{0.1, 0.2, 1.6});
       return scenes::solved(scene, options, from_below).audit.surfaces.front().radiosity.x;

@@ -179,16 +179,12 @@ int main(int argc, char** argv) {
                 100.0 * picture.relative_l2, 100.0 * picture.worst, leaves.worst_cell.c_str());
   };
   for (const double epsilon : {0.08, 0.04, 0.02, 0.0095, 0.005, 0.0025}) {
-    radiosity::Options options;
-    options.epsilon = epsilon;
-    options.min_area = 0.2 * epsilon;
+    const radiosity::Options options{.epsilon = epsilon, .min_area = 0.2 * epsilon};
     row("a priori", epsilon, options);
   }
   for (const bool clusters : {false, true}) {
     for (const double target : {0.08, 0.04, 0.02, 0.01}) {
-      radiosity::Options options;
-      options.refinement = radiosity::Refinement::a_posteriori;
-      options.target = target;
+      radiosity::Options options{.refinement = radiosity::Refinement::a_posteriori, .target = target};
       if (clusters) { options.cluster_from = 2; }
       row(clusters ? "  clusters" : "a posteriori", target, options);
     }
