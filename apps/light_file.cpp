@@ -12,6 +12,7 @@
 #include <glm/vec3.hpp>
 
 #include <brep/builder_input.hpp>
+#include <brep/finite.hpp>
 
 #include <raycast/object.hpp>
 #include <raycast/scene.hpp>
@@ -46,15 +47,13 @@ struct SourceFields {
   }
 };
 
-bool all_finite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
-
 bool usable(const ModelOptions& options) {
   const auto& camera = options.camera;
   return options.reflectance >= 0.0 && options.reflectance <= most_reflectance && options.metres > 0.0 && std::isfinite(options.metres) &&
          (!options.up || *options.up <= UpAxis::z) &&
          std::all_of(options.lamps.begin(), options.lamps.end(),
                      [](const Lamp& lamp) { return lamp.exitance >= 0.0 && std::isfinite(lamp.exitance); }) &&
-         (!camera || (all_finite(camera->eye) && all_finite(camera->forward) && all_finite(camera->up) &&
+         (!camera || (brep::is_finite(camera->eye) && brep::is_finite(camera->forward) && brep::is_finite(camera->up) &&
                       glm::length(glm::cross(camera->forward, camera->up)) > 0.0));
 }
 
@@ -130,16 +129,18 @@ constexpr std::size_t bytes_of_head = 3 * 8, bytes_of_position = 3 * 8, bytes_of
 // Are all indices within range and all numbers finite?
 bool consistent(const radiosity::Mesh& mesh, std::size_t surfaces) {
   for (const glm::dvec3& p : mesh.positions) {
-    if (!all_finite(p)) { return false; }
+    if (!brep::is_finite(p)) { return false; }
   }
   for (const radiosity::MeshCorner& corner : mesh.corners) {
-    if (corner.vertex >= mesh.positions.size() || !all_finite(corner.radiosity) || !all_finite(glm::dvec3(corner.normal))) { return false; }
+    if (corner.vertex >= mesh.positions.size() || !brep::is_finite(corner.radiosity) || !brep::is_finite(glm::dvec3(corner.normal))) {
+      return false;
+    }
   }
   for (const radiosity::MeshFace& face : mesh.faces) {
     if (face.corner_count < 3 || face.corner_count > 4 || std::uint64_t{face.first_corner} + face.corner_count > mesh.corners.size()) {
       return false;
     }
-    if (face.surface >= surfaces || !all_finite(face.radiosity)) { return false; }
+    if (face.surface >= surfaces || !brep::is_finite(face.radiosity)) { return false; }
   }
   return true;
 }

@@ -16,7 +16,6 @@
 // warm memory (2-core EPYC). A builder with defects takes some five times as long, for the reports.
 
 #include <cassert>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -30,6 +29,7 @@
 #include <brep/brep.hpp>
 #include <brep/builder_input.hpp>
 #include <brep/diagnosis.hpp>
+#include <brep/finite.hpp>
 
 namespace brep {
 
@@ -78,7 +78,7 @@ class Stitching {
     for (std::uint32_t v = 0; v < n; ++v) {
       pool[v].halfedge = HalfedgeId{};
       const glm::dvec3& p = builder_.position(v);
-      finite = finite & (std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z));
+      finite = finite & is_finite(p);
       [[maybe_unused]] auto& data = pool.data(v);
       if constexpr (requires { data.position = p; }) { data.position = p; }
     }

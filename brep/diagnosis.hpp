@@ -8,7 +8,6 @@
 // of flipped faces, the fans at a vertex on a border that a face in the hole would join.
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -19,6 +18,7 @@
 
 #include <brep/builder_input.hpp>
 #include <brep/edge_uses.hpp>
+#include <brep/finite.hpp>
 
 namespace brep::detail {
 
@@ -125,8 +125,7 @@ class Diagnosis {
 
   void report_vertices() {
     for (std::uint32_t v = 0; v < builder_.vertex_count(); ++v) {
-      const glm::dvec3& p = builder_.position(v);
-      if (std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z)) { continue; }
+      if (is_finite(builder_.position(v))) { continue; }
       add(DefectKind::bad_position, {VertexId{v}}, to_string(VertexId{v}) + " has a coordinate that is not a finite number");
     }
   }

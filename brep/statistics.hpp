@@ -23,6 +23,7 @@
 #include <glm/vec3.hpp>
 
 #include <brep/edge_uses.hpp>
+#include <brep/finite.hpp>
 
 namespace brep {
 
@@ -89,7 +90,7 @@ class StatisticsOf {
     bool first = true;
     for (std::uint32_t v = 0; v < used.size(); ++v) {
       const glm::dvec3& p = builder_.position(v);
-      if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) { continue; }
+      if (!is_finite(p)) { continue; }
       positions.push_back(p);
       if (!used[v]) { continue; }
       result_.lo = first ? p : glm::min(result_.lo, p);

@@ -4,11 +4,11 @@
 // blue of vertex and face; everything else is skipped. In a list of triangle strips, -1 separates them.
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <limits>
 #include <span>
 
 #include <brep/builder_input.hpp>
+#include <brep/finite.hpp>
 
 #include "apps/mesh_file/ply_types.hpp"
 #include "apps/mesh_file/reading.hpp"
@@ -161,9 +161,7 @@ class PlyReader {
   // --- values, handled in the same way for text and binary files
   void take(const Element& element, Place place) {
     if (element.name == "vertex") {
-      if (!std::isfinite(position_.x) || !std::isfinite(position_.y) || !std::isfinite(position_.z)) {
-        out_.error(place, "a coordinate is not a finite number");
-      }
+      if (!brep::is_finite(position_)) { out_.error(place, "a coordinate is not a finite number"); }
       out_.mesh.builder.vertex(position_);
       if (text_) { out_.mesh.vertex_line.push_back(place.line); }
       if (colors_ == 3) { put_color(out_.mesh.vertex_color, out_.mesh.builder.vertex_count() - 1, color_); }

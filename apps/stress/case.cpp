@@ -2,7 +2,8 @@
 #include "apps/stress/case.hpp"
 
 #include <algorithm>
-#include <cmath>
+
+#include <brep/finite.hpp>
 
 namespace apps::stress {
 
@@ -14,9 +15,8 @@ radiosity::Solution Findings::solve(const radiosity::Scene& scene, const radiosi
   }
   ++solved_;
   const auto& b = outcome.solution->radiosity;
-  const auto broken = std::count_if(b.begin(), b.end(), [](const radiosity::Color& c) {
-    return !(std::isfinite(c.x) && std::isfinite(c.y) && std::isfinite(c.z) && c.x >= 0.0 && c.y >= 0.0 && c.z >= 0.0);
-  });
+  const auto broken = std::count_if(
+      b.begin(), b.end(), [](const radiosity::Color& c) { return !(brep::is_finite(c) && c.x >= 0.0 && c.y >= 0.0 && c.z >= 0.0); });
   if (broken > 0) { exactly("radiosities that are negative or no numbers", static_cast<double>(broken), 0.0); }
   return std::move(*outcome.solution);
 }

@@ -17,6 +17,7 @@
 #include <glm/vec3.hpp>
 
 #include <brep/csg/plane.hpp>
+#include <brep/finite.hpp>
 
 namespace brep::csg {
 
@@ -29,7 +30,7 @@ class Grid {
     if (!(size > 0x1p-900 && size < 0x1p900)) { size = 1.0; }
     spacing_ = std::exp2(std::ceil(std::log2(size)) - 24.0);
     const glm::dvec3 middle = glm::round((0.5 * lo + 0.5 * hi) / (spacing_ * 0x1p20)) * (spacing_ * 0x1p20);
-    if (std::isfinite(middle.x) && std::isfinite(middle.y) && std::isfinite(middle.z)) { centre_ = middle; }
+    if (is_finite(middle)) { centre_ = middle; }
   }
 
   [[nodiscard]] double spacing() const { return spacing_; }                                         // in the units of the leaves

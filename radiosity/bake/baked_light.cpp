@@ -14,6 +14,8 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
+#include <brep/finite.hpp>
+
 #include <raycast/box.hpp>
 #include <raycast/bvh.hpp>
 #include <raycast/inline.hpp>
@@ -149,10 +151,8 @@ HALFLIGHT_INLINE BakedColors baked_colors(const BakedLight& light, const Polygon
   }
   if (!without.empty()) {  // use the mean of other corners at the same place
     std::map<glm::dvec3, baking::detail::Mean, baking::detail::ByCoordinates> places;
-    const auto is_place = [&](std::size_t v) {  // coordinates that are not finite cannot be ordered
-      const glm::dvec3& p = input.positions[v];
-      return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
-    };
+    // Coordinates that are not finite cannot be ordered.
+    const auto is_place = [&](std::size_t v) { return brep::is_finite(input.positions[v]); };
     for (const auto& [corner, v] : without) {
       if (is_place(v)) { places[input.positions[v]]; }
     }

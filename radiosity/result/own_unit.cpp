@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <radiosity/result/own_unit.hpp>
 
-#include <cmath>
-
 #include <glm/vec3.hpp>
+
+#include <brep/finite.hpp>
 
 #include <raycast/inline.hpp>
 
@@ -20,7 +20,7 @@ namespace detail {
 
 [[nodiscard]] HALFLIGHT_INLINE bool to_watts(Color& c, const LightUnit& unit) {
   c = unit.to_watts(c);
-  return std::isfinite(c.x) && std::isfinite(c.y) && std::isfinite(c.z);
+  return brep::is_finite(c);
 }
 HALFLIGHT_INLINE bool to_watts(Mesh& mesh, const LightUnit& unit) {
   bool finite = true;

@@ -25,6 +25,8 @@
 #include <utility>
 #include <vector>
 
+#include <brep/finite.hpp>
+
 #include <raycast/object.hpp>
 #include <raycast/objects/box.hpp>
 #include <raycast/objects/cone.hpp>
@@ -183,15 +185,14 @@ radiosity::Scene scene_of(Choices& choices) {
 }
 
 radiosity::Options options_of(Choices& choices) {
-  radiosity::Options options;
-  options.threads = 1;
-  options.epsilon = 0.1 + 0.1 * choices.below(6);
-  options.min_area = 0.01 * (1 + choices.below(8));
-  options.audit_points = choices.one_in(4) ? 8 : 0;
-  options.cluster_from = choices.one_in(2) ? 2 : 300;
-  options.solver = static_cast<radiosity::Solver>(choices.below(4));
-  options.reconstruction = static_cast<radiosity::Reconstruction>(choices.below(4));
-  options.topology = choices.one_in(4) ? radiosity::Topology::separate : radiosity::Topology::shared;
+  radiosity::Options options{.epsilon = 0.1 + 0.1 * choices.below(6),
+                             .min_area = 0.01 * (1 + choices.below(8)),
+                             .cluster_from = choices.one_in(2) ? 2 : 300,
+                             .solver = static_cast<radiosity::Solver>(choices.below(4)),
+                             .reconstruction = static_cast<radiosity::Reconstruction>(choices.below(4)),
+                             .topology = choices.one_in(4) ? radiosity::Topology::separate : radiosity::Topology::shared,
+                             .audit_points = choices.one_in(4) ? 8 : 0,
+                             .threads = 1};
   if (choices.one_in(3)) {
     options.refinement = radiosity::Refinement::a_posteriori;
     options.target = 0.1 + 0.1 * choices.below(4);
@@ -204,7 +205,6 @@ radiosity::Options options_of(Choices& choices) {
 
 double largest(const glm::dvec3& c) { return std::max({c.x, c.y, c.z}); }
 double least(const glm::dvec3& c) { return std::min({c.x, c.y, c.z}); }
-bool finite(const glm::dvec3& c) { return std::isfinite(c.x) && std::isfinite(c.y) && std::isfinite(c.z); }
 
 void check_solution(const radiosity::Scene& scene, const radiosity::Options& options, const radiosity::Solution& solution) {
   const radiosity::Audit& audit = solution.audit;
@@ -215,15 +215,15 @@ void check_solution(const radiosity::Scene& scene, const radiosity::Options& opt
   }
   for (std::size_t i = 0; i < solution.hierarchy.size(); ++i) {
     require(std::isfinite(solution.area[i]) && solution.area[i] >= 0.0, "areas are finite and not negative");
-    require(finite(solution.radiosity[i]), "radiosities are finite");
+    require(brep::is_finite(solution.radiosity[i]), "radiosities are finite");
     if (!solution.hierarchy[i].leaf() || !(solution.area[i] > 0.0)) { continue; }
     brightest = std::max(brightest, largest(solution.radiosity[i]));
     darkest = std::min(darkest, least(solution.radiosity[i]));
   }
   require(std::isfinite(audit.energy_balance) && std::isfinite(audit.escaped) && std::isfinite(audit.residual), "the audit is finite");
   if (audit.leaf_error) { require(std::isfinite(audit.leaf_error->relative_l2), "the error is finite"); }
-  for (const glm::dvec3& p : solution.mesh.positions) { require(finite(p), "positions are finite"); }
-  for (const radiosity::MeshCorner& corner : solution.mesh.corners) { require(finite(corner.radiosity), "colours are finite"); }
+  for (const glm::dvec3& p : solution.mesh.positions) { require(brep::is_finite(p), "positions are finite"); }
+  for (const radiosity::MeshCorner& corner : solution.mesh.corners) { require(brep::is_finite(corner.radiosity), "colours are finite"); }
   if (!audit.converged) { return; }
   // The links' slopes may send a little less than nothing into a corner that hardly sees the lamp.
   if (options.solver != radiosity::Solver::jacobi) { require(darkest >= -1e-2 * brightest, "radiosities are not negative"); }
