@@ -148,10 +148,16 @@ class Explanation {
     });
   }
 
+  // A rule about walks along half-edges, and the usual cause of an offence.
+  struct WalkRule {
+    int number;
+    const char *walk, *cause;
+  };
   // Marks the walk from each anchor, then looks at every half-edge that was not met.
   // A step leads from h to next(from(h)).
   template <class IdType, class Range, class Owner, class From>
-  void check_walks(Range&& range, Owner&& owner, From&& from, bool complete, int rule, const char* walk, const char* cause) {
+  void check_walks(Range&& range, Owner&& owner, From&& from, bool complete, const WalkRule& rule) {
+    const auto& [number, walk, cause] = rule;
     std::vector<bool> seen(brep_.halfedge_end(), false);
     bool anchored = true;
     for (IdType id : range) {
@@ -169,7 +175,7 @@ class Explanation {
       while (!seen[h.index]) {
         seen[h.index] = true;
         if (owner(h) != id && brep_.alive(owner(h))) {
-          add(rule, {h, id, owner(h)},
+          add(number, {h, id, owner(h)},
               to_string(h) + " names " + to_string(owner(h)) + ", but the walk " + walk + " from " + to_string(brep_.halfedge(id)) +
                   ", the anchor of " + to_string(id) + ", passes it; usually a half-edge that was not relabelled");
         }
@@ -186,7 +192,7 @@ class Explanation {
     each_halfedge([&](HalfedgeId h) {
       if (seen[h.index]) { return; }
       const IdType id = owner(h);
-      add(rule, {id, h},
+      add(number, {id, h},
           to_string(id) + " is also named by " + to_string(h) + ", which the walk " + walk + " from its anchor " +
               to_string(brep_.halfedge(id)) + " never reaches: " + cause);
       for (HalfedgeId x = h; !seen[x.index]; x = brep_.next(from(x))) {
@@ -196,14 +202,14 @@ class Explanation {
   }
   void check_loops() {
     check_walks<FaceId>(
-        faces(brep_), [&](HalfedgeId h) { return brep_.face(h); }, [](HalfedgeId h) { return h; }, links_are_sound_ && faces_are_alive_, 4,
-        "by next", "the face has two loops; usually a split without a new face, or a join of faces that share no edge");
+        faces(brep_), [&](HalfedgeId h) { return brep_.face(h); }, [](HalfedgeId h) { return h; }, links_are_sound_ && faces_are_alive_,
+        {4, "by next", "the face has two loops; usually a split without a new face, or a join of faces that share no edge"});
   }
   void check_orbits() {
     check_walks<VertexId>(
         vertices(brep_), [&](HalfedgeId h) { return brep_.vertex(h); }, [](HalfedgeId h) { return twin(h); },
-        links_are_sound_ && vertices_are_alive_, 5, "by next(twin)",
-        "the vertex has two fans; usually a join over an edge whose ends meet twice");
+        links_are_sound_ && vertices_are_alive_,
+        {5, "by next(twin)", "the vertex has two fans; usually a join over an edge whose ends meet twice"});
   }
 
   // A vertex or face counts in the shell of its anchor.

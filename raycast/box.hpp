@@ -65,17 +65,19 @@ class SlabTest {
   // Does the line meet the box within [t0, t1]? If so, `entry` is set to the (rounded) parameter of the entry, at least t0.
   [[nodiscard]] bool operator()(const Box& box, double t0, double t1, double& entry) const {
     double in = t0, out = t1;
-    axis(box.lo.x, box.hi.x, origin_.x, inverse_.x, backward_[0], in, out);
-    axis(box.lo.y, box.hi.y, origin_.y, inverse_.y, backward_[1], in, out);
-    axis(box.lo.z, box.hi.z, origin_.z, inverse_.z, backward_[2], in, out);
+    clip<0>(box, in, out);
+    clip<1>(box, in, out);
+    clip<2>(box, in, out);
     entry = in;
     return in <= out || in - out <= eps_slab * std::min(std::abs(in), std::abs(out));
   }
 
  private:
-  static void axis(double lo, double hi, double origin, double inverse, bool backward, double& in, double& out) {
-    const double near = ((backward ? hi : lo) - origin) * inverse;
-    const double far = ((backward ? lo : hi) - origin) * inverse;
+  // Cuts [in, out] to the slab of the box along axis k.
+  template <int k>
+  void clip(const Box& box, double& in, double& out) const {
+    const double near = ((backward_[k] ? box.hi : box.lo)[k] - origin_[k]) * inverse_[k];
+    const double far = ((backward_[k] ? box.lo : box.hi)[k] - origin_[k]) * inverse_[k];
     in = near > in ? near : in;  // false for NaN, which leaves `in` unchanged
     out = far < out ? far : out;
   }

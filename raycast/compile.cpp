@@ -57,8 +57,17 @@ HALFLIGHT_INLINE void Compiler::cylinder(const glm::dvec3& base, const AxisFrame
 
 HALFLIGHT_INLINE void Compiler::superquadric(const glm::dvec3& centre, const glm::dmat3& unit, double p, double q, double ring) {
   if (ring > largest_ring) { return; }  // distances from such a large ring are not accurate enough
-  form(p >= 1.0 && q >= 1.0 && ring == 0.0 ? FormKind::convex : FormKind::concave, centre, unit, p, q, ring,
-       eps_power * (1.0 + 0.5 / p + 0.5 / q + (p + q) / 128.0));
+  const double eps = eps_power * (1.0 + 0.5 / p + 0.5 / q + (p + q) / 128.0);
+  form({.p = static_cast<float>(p),
+        .q = static_cast<float>(q),
+        .ring = static_cast<float>(ring),
+        .eps = static_cast<float>(eps),
+        .kind = p >= 1.0 && q >= 1.0 && ring == 0.0 ? FormKind::convex : FormKind::concave},
+       centre, unit);
+}
+
+HALFLIGHT_INLINE void Compiler::cone(const glm::dvec3& base, const glm::dmat3& unit, double p, double q) {
+  form({.p = static_cast<float>(p), .q = static_cast<float>(q), .eps = static_cast<float>(eps_cone), .kind = FormKind::cone}, base, unit);
 }
 
 HALFLIGHT_INLINE void Compiler::body(std::span<const Plane> planes) {
@@ -187,15 +196,14 @@ HALFLIGHT_INLINE FloatBox Compiler::rounded(const Box& b) const {  // grown by t
   return result;
 }
 
-HALFLIGHT_INLINE void Compiler::form(FormKind kind, const glm::dvec3& centre, const glm::dmat3& unit, double p, double q, double ring,
-                                     double eps) {
+HALFLIGHT_INLINE void Compiler::form(Form f, const glm::dvec3& centre, const glm::dmat3& unit) {
   if (object_->inside()) { return; }
   const Placement& place = object_->placement();
   const glm::dmat3 inverse = glm::inverse(place.linear), linear = unit * inverse / out_.scale;
   const glm::dvec3 shift = unit * (inverse * (out_.centre - place.translation) - centre);
   const auto norm = [](const glm::dmat3& m) { return std::sqrt(glm::dot(m[0], m[0]) + glm::dot(m[1], m[1]) + glm::dot(m[2], m[2])); };
   if (!(norm(unit * inverse) * norm(glm::inverse(unit * inverse)) < largest_condition)) { return; }
-  Form f{{}, {}, static_cast<float>(p), static_cast<float>(q), static_cast<float>(ring), static_cast<float>(eps), kind, index_};
+  f.object = index_;
   for (int k = 0; k < 3; ++k) {
     const glm::dvec3 row{linear[0][k], linear[1][k], linear[2][k]};
     for (int i = 0; i < 3; ++i) { f.map[k][i] = static_cast<float>(row[i]); }

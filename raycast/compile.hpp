@@ -37,9 +37,9 @@ class Compiler {
   void sphere(const glm::dvec3& centre, double radius);
   void cylinder(const glm::dvec3& base, const AxisFrame& frame, double radius, double height);
   // The disk |x, y| <= 1 and z = 0, with (x, y, z) = unit (p - centre).
-  void disk(const glm::dvec3& centre, const glm::dmat3& unit) { form(FormKind::disk, centre, unit, 0.0, 0.0, 0.0, 0.0); }
+  void disk(const glm::dvec3& centre, const glm::dmat3& unit) { form({.kind = FormKind::disk}, centre, unit); }
   // 0 <= z <= 1, |x, y| <= p + q z, neither beyond 1.
-  void cone(const glm::dvec3& base, const glm::dmat3& unit, double p, double q) { form(FormKind::cone, base, unit, p, q, 0.0, eps_cone); }
+  void cone(const glm::dvec3& base, const glm::dmat3& unit, double p, double q);
   // The torus-like solid ((|x|^p + |y|^p)^(1/p) - ring)^q + |z|^q <= 1, with (x, y, z) = unit (p - centre).
   void superquadric(const glm::dvec3& centre, const glm::dmat3& unit, double p, double q, double ring);
   // A convex solid behind all these planes, of which there are at most 32.
@@ -82,8 +82,8 @@ class Compiler {
   [[nodiscard]] AirCells air_cells(std::size_t first_item) const;
   void add_object_box(Kind kind, std::uint32_t data) { items_.push_back({out_.bounds.back(), kind, index_, data}); }
 
-  // Adds a Form, if double precision in the shape's coordinates is more accurate than the margin there; not for very uneven maps.
-  void form(FormKind kind, const glm::dvec3& centre, const glm::dmat3& unit, double p, double q, double ring, double eps);
+  // Sets the map of the form and adds it, if double precision in its coordinates is more accurate than the margin; not for uneven maps.
+  void form(Form f, const glm::dvec3& centre, const glm::dmat3& unit);
 
   // Is the mean plane of `world_` accurate enough for single precision? A corner that is off the plane by s shifts the outline seen by a
   // segment by s length / (|from| + |to|) in the plane, with the heights of the ends as in face() of shapes.inc. The tolerance there is

@@ -67,10 +67,10 @@ struct Guard {
 //   concave   G(|A(x, y) - ring|, z) <= 1: any exponents; tori, too
 enum class FormKind : std::uint32_t { disk, cone, convex, concave };
 struct Form {
-  float map[3][4], slop[3], p, q, ring;
-  float eps;  // relative error of the computed G (forms.inc)
+  float map[3][4] = {}, slop[3] = {}, p = 0.0f, q = 0.0f, ring = 0.0f;
+  float eps = 0.0f;  // relative error of the computed G (forms.inc)
   FormKind kind;
-  std::uint32_t object;
+  std::uint32_t object = 0;
 };
 
 struct alignas(64) Node {

@@ -43,6 +43,11 @@ class Compiler;
 
 inline constexpr std::uint32_t no_object = 0xffffffff;  // an object's number in a scene: none
 
+// A point of an object of a scene, and the sheet on which it lies.
+struct ScenePoint : SurfacePoint {
+  std::uint32_t object = 0, sheet = 0;
+};
+
 class Object {
  public:
   Object() = default;

@@ -115,6 +115,14 @@ class Scene {
   // the later object if they face the same way, the front if they stand back to back. `source_sheet`: as in Segments16.
   [[nodiscard]] std::optional<Hit> closest(const Segment& ray, std::uint32_t source_owner = no_object,
                                            std::uint32_t source_sheet = unknown_sheet) const;
+  // The same for a ray that begins at a point of a surface.
+  [[nodiscard]] std::optional<Hit> closest(const ScenePoint& from, const glm::dvec3& direction) const {
+    return closest({from.position, direction}, from.object, from.sheet);
+  }
+  // The point of the surface at which `ray` has this hit.
+  [[nodiscard]] ScenePoint point(const Hit& hit, const Segment& ray) const {
+    return {objects_[hit.object].project(hit.sheet, ray.at(hit.t)), hit.object, hit.sheet};
+  }
 
   // As above for sixteen rays, bit for bit; the targets' owners are ignored. Faster if the rays are close to each other.
   [[nodiscard]] Hits16 closest16(const Segments16& rays) const;
@@ -124,6 +132,7 @@ class Scene {
   // faces the same way. Surfaces without thickness that stand back to back (a two-sided sheet) do not cover each other. So at every place
   // exactly one surface is visible: the foremost of those that coincide there, or a later one within its skin.
   [[nodiscard]] bool covered(const glm::dvec3& p, const glm::dvec3& n, std::uint32_t owner) const;
+  [[nodiscard]] bool covered(const ScenePoint& point) const { return covered(point.position, point.normal, point.object); }
 
  private:
   struct Record {                                      // data of an object for queries

@@ -46,7 +46,7 @@ LightViews::LightViews(const radiosity::Scene& scene) : objects_(radiosity::plac
   for (std::size_t i = 0; i < std::min(most_points, shining.size()); ++i) {
     const radiosity::InputSurface& surface = *shining[i * shining.size() / std::min(most_points, shining.size())];
     const raycast::PlacedObject& object = objects_.object(surface.object);
-    points_.push_back({surface.object, surface.sheet, object.project(surface.sheet, object.bounds().centre())});
+    points_.push_back({object.project(surface.sheet, object.bounds().centre()), surface.object, surface.sheet});
   }
   for (std::uint32_t o = 0; o < power.size(); ++o) {
     if (power[o] > 0.0) { lamps_.push_back(o); }
@@ -58,13 +58,14 @@ LightViews::LightViews(const radiosity::Scene& scene) : objects_(radiosity::plac
   std::sort(lamps_.begin(), lamps_.end(), [&](std::uint32_t a, std::uint32_t b) { return rank(a) < rank(b); });
 }
 
-bool LightViews::lit(std::uint32_t object, const raycast::SurfacePoint& at) const {
-  return std::any_of(points_.begin(), points_.end(), [&](const LampPoint& lamp) {
+bool LightViews::lit(const raycast::ScenePoint& at) const {
+  return std::any_of(points_.begin(), points_.end(), [&](const raycast::ScenePoint& lamp) {
     const raycast::PlacedObject& shape = objects_.object(lamp.object);
-    const raycast::SurfacePoint on = shape.flat() ? lamp.at : shape.project(lamp.sheet, at.position);  // on a curved lamp the nearest point
+    raycast::SurfacePoint on = lamp;
+    if (!shape.flat()) { on = shape.project(lamp.sheet, at.position); }  // on a curved lamp the nearest point
     const glm::dvec3 way = on.position - at.position;
-    return lamp.object == object || (glm::dot(way, at.normal) > 0.0 && glm::dot(way, on.normal) < 0.0 &&
-                                     !objects_.occluded({at.position, way}, object, lamp.object));
+    return lamp.object == at.object || (glm::dot(way, at.normal) > 0.0 && glm::dot(way, on.normal) < 0.0 &&
+                                        !objects_.occluded({at.position, way}, at.object, lamp.object));
   });
 }
 
@@ -85,7 +86,7 @@ double LightViews::lit_share(const radiosity::Camera& camera) const {
     }
     if (!hit || !hit->front) { continue; }
     ++met;
-    bright += lit(hit->object, objects_.object(hit->object).project(hit->sheet, from + hit->t * direction)) ? 1 : 0;
+    bright += lit(objects_.point(*hit, {from, direction})) ? 1 : 0;
   }
   return met > 0 ? static_cast<double>(bright) / met : 0.0;
 }
@@ -111,9 +112,7 @@ std::optional<radiosity::Camera> LightViews::across_room(glm::dvec3 middle) cons
     }
   }
   if (away == glm::dvec3{0.0}) { return std::nullopt; }
-  radiosity::Camera camera;
-  camera.name = "inside";
-  camera.eye = middle + 0.9 * most * away;
+  radiosity::Camera camera{.name = "inside", .eye = middle + 0.9 * most * away};
   // If `middle` is between a lamp and the ceiling close above it, it is too high, so the eye is moved to its height between floor and
   // ceiling.
   const double below = free_way(camera.eye, {0, 0, -1}), above = free_way(camera.eye, {0, 0, 1});
@@ -142,7 +141,7 @@ std::optional<radiosity::Camera> LightViews::inside() const {
     look({box.centre().x, box.centre().y, box.lo.z - off});
     look({box.centre().x, box.centre().y, box.hi.z + off});
   }
-  for (const LampPoint& lamp : points_) { look(lamp.at.position + off * lamp.at.normal); }
+  for (const raycast::ScenePoint& lamp : points_) { look(lamp.position + off * lamp.normal); }
   return best;
 }
 

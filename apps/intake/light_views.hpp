@@ -43,19 +43,14 @@ class LightViews {
   [[nodiscard]] std::shared_ptr<const raycast::Object> ceiling_lamp(const raycast::Box& room) const;
 
  private:
-  struct LampPoint {
-    std::uint32_t object = 0, sheet = 0;
-    raycast::SurfacePoint at;
-  };
-
-  [[nodiscard]] bool lit(std::uint32_t object, const raycast::SurfacePoint& at) const;
+  [[nodiscard]] bool lit(const raycast::ScenePoint& at) const;
   // The distance to the first surface; 0 if its back is seen or there is none, because the point is then not in the air of a room.
   [[nodiscard]] double free_way(const glm::dvec3& from, const glm::dvec3& direction) const;
   [[nodiscard]] std::optional<radiosity::Camera> across_room(glm::dvec3 middle) const;
 
   raycast::Scene objects_;
-  std::vector<LampPoint> points_;     // on some of the lamps
-  std::vector<std::uint32_t> lamps_;  // objects, by decreasing power
+  std::vector<raycast::ScenePoint> points_;  // on some of the lamps
+  std::vector<std::uint32_t> lamps_;         // objects, by decreasing power
 };
 
 }  // namespace apps

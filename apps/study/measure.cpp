@@ -206,7 +206,7 @@ std::vector<Color> values_at(const radiosity::Scene& scene, const radiosity::Sol
   const radiosity::Lookup lookup{scene, leaf_values != nullptr ? constant : mesh, solution.frame};
   std::vector<Color> values;
   values.reserve(truth.points.size());
-  for (const ReferencePoint& p : truth.points) { values.push_back(lookup.at(p.object, p.sheet, p.position).value_or(Color{0.0})); }
+  for (const ReferencePoint& p : truth.points) { values.push_back(lookup.at(p.at.object, p.at.sheet, p.at.position).value_or(Color{0.0})); }
   return values;
 }
 

@@ -61,10 +61,10 @@ void add_cell(TrueRadiosity& truth, const radiosity::Prepared& prepared, const r
     for (int k = 0; k < tries; ++k) {
       const double u = (quarter % 2 + random.uniform()) / 2.0;
       const glm::dvec3 chord = radiosity::sample(patch, u, (quarter / 2 + random.uniform()) / 2.0);
-      const raycast::SurfacePoint point = prepared.objects.object(leaf.object).project(sheet, chord);
-      if (prepared.objects.covered(point.position, point.normal, leaf.object)) { continue; }
+      const raycast::ScenePoint point{prepared.objects.object(leaf.object).project(sheet, chord), leaf.object, sheet};
+      if (prepared.objects.covered(point)) { continue; }
       ++exposed;
-      if (!found) { truth.points.push_back({point.position, point.normal, leaf.object, sheet, cell, Color{0.0}, Color{0.0}}); }
+      if (!found) { truth.points.push_back({point, cell, Color{0.0}, Color{0.0}}); }
       found = true;
     }
   }
@@ -126,7 +126,7 @@ void trace(const radiosity::Scene& scene, const radiosity::Prepared& prepared, c
       Color sum{0.0};
       for (std::uint32_t k = 0; k < length; ++k) {
         radiosity::PathNumbers numbers{first, second, k, radiosity::Random{options.seed, i, std::uint64_t{s} << 32 | k}};
-        sum += tracer.radiosity(point.position, point.normal, point.object, point.sheet, numbers, rays).all;
+        sum += tracer.radiosity(point.at, numbers, rays).all;
       }
       sum /= static_cast<double>(length);
       mean += sum / static_cast<double>(sequences);
@@ -194,9 +194,9 @@ std::string reference_key(std::string_view text, const TrueRadiosity& points, co
   sum.add(options.seed);
   sum.add(std::uint64_t{points.points.size()});
   for (const ReferencePoint& p : points.points) {
-    for (const double x : {p.position.x, p.position.y, p.position.z}) { sum.add(x); }
-    sum.add(std::uint64_t{p.object});
-    sum.add(std::uint64_t{p.sheet});
+    for (const double x : {p.at.position.x, p.at.position.y, p.at.position.z}) { sum.add(x); }
+    sum.add(std::uint64_t{p.at.object});
+    sum.add(std::uint64_t{p.at.sheet});
   }
   return sum.text();
 }

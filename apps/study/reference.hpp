@@ -17,6 +17,8 @@
 
 #include <glm/vec3.hpp>
 
+#include <raycast/object.hpp>
+
 #include <radiosity/scene/material.hpp>
 #include <radiosity/scene/options.hpp>
 #include <radiosity/scene/scene.hpp>
@@ -26,10 +28,7 @@
 namespace study {
 
 struct ReferencePoint {
-  glm::dvec3 position{0.0};  // on the true surface, in the coordinates of the frame
-  glm::dvec3 normal{0.0};
-  std::uint32_t object = 0;
-  std::uint32_t sheet = 0;
+  raycast::ScenePoint at;  // in the coordinates of the frame
   std::uint32_t cell = 0;
   radiosity::Color radiosity{0.0};
   radiosity::Color standard_error{0.0};

@@ -21,10 +21,9 @@
 
 namespace radiosity {
 
-// A point of a surface and its statistical weight.
+// Where a path begins, and its statistical weight.
 struct PathStart {
-  raycast::SurfacePoint point;
-  std::uint32_t object = 0, sheet = 0;
+  raycast::ScenePoint point;
   double weight = 1.0;
 };
 
@@ -55,10 +54,8 @@ template <class Start>
     const std::optional<PathStart> from = start(static_cast<std::uint32_t>(i));
     if (!from) { return; }
     const auto noise = [&](const PathTracer& tracer) {
-      const PathEstimates light{own_seed, i, paths, [&](PathNumbers& numbers) {
-                                  return tracer.radiosity(from->point.position, from->point.normal, from->object, from->sheet, numbers,
-                                                          tried[i].rays);
-                                }};
+      const PathEstimates light{own_seed, i, paths,
+                                [&](PathNumbers& numbers) { return tracer.radiosity(from->point, numbers, tried[i].rays); }};
       return from->weight * std::sqrt(light.noise());
     };
     tried[i].noise_plain = noise(plain);

@@ -57,14 +57,14 @@ HALFLIGHT_INLINE BrightPlaces::Place BrightPlaces::place_of(std::span<const Refl
   glm::dvec3 normal{0.0};
   for (const Reflected& one : own) {
     place.power += one.power;
-    place.centre += one.power * one.from.at.position;
-    normal += one.power * one.from.at.normal;
+    place.centre += one.power * one.from.position;
+    normal += one.power * one.from.normal;
   }
   place.centre /= place.power;
   normal /= place.power;
   glm::dvec3 apart{0.0}, turned{0.0};
   for (const Reflected& one : own) {
-    const glm::dvec3 d = one.from.at.position - place.centre, n = one.from.at.normal - normal;
+    const glm::dvec3 d = one.from.position - place.centre, n = one.from.normal - normal;
     apart += one.power / place.power * d * d;
     turned += one.power / place.power * n * n;
     place.radius = std::max(place.radius, glm::length(d));
@@ -77,9 +77,7 @@ HALFLIGHT_INLINE BrightPlaces::Place BrightPlaces::place_of(std::span<const Refl
 }
 
 HALFLIGHT_INLINE std::uint32_t BrightPlaces::cut(std::span<Reflected> light, const Place& place) {
-  const auto at = [axis = place.axis](const Reflected& one) {
-    return axis < 3 ? one.from.at.position[axis] : one.from.at.normal[axis - 3];
-  };
+  const auto at = [axis = place.axis](const Reflected& one) { return axis < 3 ? one.from.position[axis] : one.from.normal[axis - 3]; };
   const std::span<Reflected> own = light.subspan(place.first, place.last - place.first);
   const double mean = std::accumulate(own.begin(), own.end(), 0.0, [&](double sum, const Reflected& one) { return sum + at(one); }) /
                       static_cast<double>(own.size());
@@ -136,9 +134,9 @@ HALFLIGHT_INLINE PhotonGrid BrightPlaces::sent_on(std::span<const Reflected> lig
     const std::array<double, 4> u = sequence(i);
     const std::size_t k = drawn_index(until, u[0] * power);
     const std::uint32_t first = places_[k].first, count = places_[k].last - first;
-    const Landing& from = light[first + std::min(static_cast<std::uint32_t>(u[3] * count), count - 1)].from;
-    const auto landed = meet(from.at, cosine_direction(from.at.normal, u[1], u[2]), from.object, from.sheet);
-    if (landed) { photons.push_back({landed->at.position, landed->at.normal, static_cast<std::uint32_t>(k)}); }
+    const raycast::ScenePoint& from = light[first + std::min(static_cast<std::uint32_t>(u[3] * count), count - 1)].from;
+    const auto landed = meet(from, cosine_direction(from.normal, u[1], u[2]));
+    if (landed) { photons.push_back({landed->position, landed->normal, static_cast<std::uint32_t>(k)}); }
   }
   return {photons, use.diameter};
 }

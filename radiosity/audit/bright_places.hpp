@@ -30,7 +30,7 @@ class BrightPlaces {
  public:
   // Light that landed on a surface and is reflected from there.
   struct Reflected {
-    Landing from;
+    raycast::ScenePoint from;
     double power = 0.0;  // sum of the channels, in any unit
   };
 

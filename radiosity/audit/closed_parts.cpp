@@ -76,14 +76,14 @@ struct RayEnd {
   // A patch is a chord of its curved surface. Where the surface runs into another object, a point may be exposed on the chord but buried
   // on the surface.
   const std::uint32_t own = input_face(scene.hierarchy, leaf);
-  const raycast::SurfacePoint from = scene.objects.object(node.object).project(sheet, p);
-  if (scene.objects.covered(from.position, from.normal, node.object)) { return {own, own, RayEnd::What::front}; }
+  const raycast::ScenePoint from{scene.objects.object(node.object).project(sheet, p), node.object, sheet};
+  if (scene.objects.covered(from)) { return {own, own, RayEnd::What::front}; }
   const double u = random.uniform();
   const glm::dvec3 direction = cosine_direction(from.normal, u, random.uniform()) * scene.objects.diameter();
-  const auto hit = scene.objects.closest({from.position, direction}, node.object, sheet);
+  const auto hit = scene.objects.closest(from, direction);
   if (!hit) { return {own, own, RayEnd::What::nowhere}; }
   if (!hit->front) { return {own, own, RayEnd::What::back}; }
-  const raycast::SurfacePoint at = scene.objects.object(hit->object).project(hit->sheet, from.position + hit->t * direction);
+  const raycast::ScenePoint at = scene.objects.point(*hit, {from.position, direction});
   const std::uint32_t met = leaves(scene.surfaces[hit->object].first_surface + hit->sheet, at);
   return {own, met == no_node ? own : input_face(scene.hierarchy, met), RayEnd::What::front};
 }

@@ -78,7 +78,7 @@ class PathTracer {
     for (const Material& material : materials_) { emission.push_back(material.emission); }
     std::vector<BrightPlaces::Reflected> light;
     for (const LampPhoton& photon : lamp_photons(surfaces, emission, meet_front(), objects_->ray_work())) {
-      const Color& rho = materials_[surface(photon.landed.object, photon.landed.sheet)].reflectance;
+      const Color& rho = of(photon.landed).reflectance;
       light.push_back({photon.landed, photon.power * (rho.x + rho.y + rho.z)});
     }
     BrightPlaces::Use use{0.0, objects_->diameter()};
@@ -100,6 +100,7 @@ class PathTracer {
   [[nodiscard]] double brightest() const { return brightest_; }
   [[nodiscard]] std::uint32_t surface(std::uint32_t object, std::uint32_t sheet) const { return first_surface_[object] + sheet; }
   [[nodiscard]] const Material& material(std::uint32_t surface) const { return materials_[surface]; }
+  [[nodiscard]] const Material& of(const raycast::ScenePoint& x) const { return materials_[surface(x.object, x.sheet)]; }
 
   struct Light {
     Color all{0.0};     // B
@@ -114,13 +115,12 @@ class PathTracer {
     [[nodiscard]] double mean() const { return rays > 0 ? work / static_cast<double>(rays) : 0.0; }
   };
 
-  // One estimate of B at the point x of a surface, whose unit normal n points away from the solid. `random` supplies numbers by
-  // uniform(): independent ones, or those of a low-discrepancy path (sobol.hpp). Light that was reflected more than `most` times is left
-  // out. `rays`: a counter or a RayCost.
+  // One estimate of B at the point x. `random` supplies numbers by uniform(): independent ones, or those of a low-discrepancy path
+  // (sobol.hpp). Light that was reflected more than `most` times is left out. `rays`: a counter or a RayCost.
   template <class Numbers, class Rays>
-  [[nodiscard]] Light radiosity(glm::dvec3 x, glm::dvec3 n, std::uint32_t object, std::uint32_t sheet, Numbers& random, Rays& rays,
+  [[nodiscard]] Light radiosity(raycast::ScenePoint x, Numbers& random, Rays& rays,
                                 std::uint32_t most = std::numeric_limits<std::uint32_t>::max()) const {
-    const Material* material = &materials_[surface(object, sheet)];
+    const Material* material = &of(x);
     Light result{material->emission, material->emission};
     Color throughput{1.0}, reflected{1.0};  // reflected: product of the reflectances alone, for the roulette
     for (std::uint32_t reflections = 0; reflections < most; ++reflections) {
@@ -133,15 +133,16 @@ class PathTracer {
       throughput *= rho;
       reflected *= rho;
       if (is_black(throughput)) { return result; }
-      const BrightPlaces::From places{places_, x, n};
+      const BrightPlaces::From places{places_, x.position, x.normal};
       const std::optional<glm::dvec3> onwards = places.direction(random);
       if constexpr (std::is_same_v<Rays, RayCost>) { rays.work += places_.work(); }
-      if (const std::optional<Emitters::Sample> lamp = emitters_.sample(x, n, random)) {
-        const std::optional<raycast::Hit> hit = first_front(x, lamp->direction, object, sheet, rays);
+      if (const std::optional<Emitters::Sample> lamp = emitters_.sample(x.position, x.normal, random)) {
+        const std::optional<raycast::Hit> hit = first_front(x, lamp->direction, rays);
         if (hit) {
-          arrives(throughput * emission(*hit) * balance(lamp->density + places.density(lamp->direction), glm::dot(n, lamp->direction)));
+          arrives(throughput * emission(*hit) *
+                  balance(lamp->density + places.density(lamp->direction), glm::dot(x.normal, lamp->direction)));
         }
-        count_emitters(x, n, lamp->direction, rays);
+        count_emitters(x, lamp->direction, rays);
       }
       if (!first) {
         const double carried = std::max({reflected.x, reflected.y, reflected.z});
@@ -152,40 +153,34 @@ class PathTracer {
       }
 
       if (!onwards) { return result; }
-      const std::optional<raycast::Hit> hit = first_front(x, *onwards, object, sheet, rays);
+      const std::optional<raycast::Hit> hit = first_front(x, *onwards, rays);
       if (!hit) { return result; }
-      const double density = places.density(*onwards), cosine = glm::dot(n, *onwards);
+      const double density = places.density(*onwards), cosine = glm::dot(x.normal, *onwards);
       if (!is_black(emission(*hit))) {
-        arrives(throughput * emission(*hit) * balance(emitters_.density(x, n, *onwards) + density, cosine));
-        count_emitters(x, n, *onwards, rays);
+        arrives(throughput * emission(*hit) * balance(emitters_.density(x.position, x.normal, *onwards) + density, cosine));
+        count_emitters(x, *onwards, rays);
       }
-      const raycast::SurfacePoint point = at(*hit, x, *onwards);
       throughput *= balance(density, cosine);
-      x = point.position;
-      n = point.normal;
-      object = hit->object;
-      sheet = hit->sheet;
-      material = &materials_[surface(object, sheet)];
+      x = objects_->point(*hit, ray(x, *onwards));
+      material = &of(x);
     }
     return result;
   }
 
  private:
-  // The surface point of a hit.
-  [[nodiscard]] raycast::SurfacePoint at(const raycast::Hit& hit, const glm::dvec3& from, const glm::dvec3& direction) const {
-    return objects_->object(hit.object).project(hit.sheet, raycast::Segment{from, direction * objects_->diameter()}.at(hit.t));
+  [[nodiscard]] raycast::Segment ray(const raycast::ScenePoint& from, const glm::dvec3& direction) const {
+    return {from.position, direction * objects_->diameter()};
   }
   [[nodiscard]] const Color& emission(const raycast::Hit& hit) const { return materials_[surface(hit.object, hit.sheet)].emission; }
 
-  // The first hit of the ray from x, a point on this sheet of `object`; nothing if that hit shows its back.
+  // The first hit of the ray from x; nothing if that hit shows its back.
   template <class Rays>
-  [[nodiscard]] std::optional<raycast::Hit> first_front(const glm::dvec3& x, const glm::dvec3& direction, std::uint32_t object,
-                                                        std::uint32_t sheet, Rays& rays) const {
-    const raycast::Segment ray{x, direction * objects_->diameter()};
-    const auto hit = objects_->closest(ray, object, sheet);
+  [[nodiscard]] std::optional<raycast::Hit> first_front(const raycast::ScenePoint& x, const glm::dvec3& direction, Rays& rays) const {
+    const glm::dvec3 reach = direction * objects_->diameter();
+    const auto hit = objects_->closest(x, reach);
     if constexpr (std::is_same_v<Rays, RayCost>) {
       ++rays.rays;
-      rays.work += objects_->ray_work({x, ray.direction * (hit ? hit->t : 1.0)});
+      rays.work += objects_->ray_work({x.position, reach * (hit ? hit->t : 1.0)});
     } else {
       ++rays;
     }
@@ -194,8 +189,8 @@ class PathTracer {
 
   // Adds the cost of evaluating the emitters' density in this direction.
   template <class Rays>
-  void count_emitters(const glm::dvec3& x, const glm::dvec3& n, const glm::dvec3& direction, Rays& rays) const {
-    if constexpr (std::is_same_v<Rays, RayCost>) { rays.work += emitters_.work(x, n, direction); }
+  void count_emitters(const raycast::ScenePoint& x, const glm::dvec3& direction, Rays& rays) const {
+    if constexpr (std::is_same_v<Rays, RayCost>) { rays.work += emitters_.work(x.position, x.normal, direction); }
   }
 
   // Weight of the light of a direction: cosine / pi over the density of all ways to sample it.
@@ -204,11 +199,10 @@ class PathTracer {
   }
 
   [[nodiscard]] MeetFront meet_front() const {
-    return [this](const raycast::SurfacePoint& from, const glm::dvec3& direction, std::uint32_t object,
-                  std::uint32_t sheet) -> std::optional<Landing> {
+    return [this](const raycast::ScenePoint& from, const glm::dvec3& direction) -> std::optional<raycast::ScenePoint> {
       std::uint64_t rays = 0;
-      const auto hit = first_front(from.position, direction, object, sheet, rays);
-      return hit ? std::optional{Landing{at(*hit, from.position, direction), hit->object, hit->sheet}} : std::nullopt;
+      const auto hit = first_front(from, direction, rays);
+      return hit ? std::optional{objects_->point(*hit, ray(from, direction))} : std::nullopt;
     };
   }
 

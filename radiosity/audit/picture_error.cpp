@@ -14,6 +14,8 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
+#include <brep/finite.hpp>
+
 #include <raycast/bundle.hpp>
 #include <raycast/inline.hpp>
 #include <raycast/object.hpp>
@@ -117,8 +119,8 @@ HALFLIGHT_INLINE PictureAudit::PictureAudit(const Scene& scene, const LightUnit&
       std::none_of(inputs.begin(), inputs.end(), [&](const InputSurface& s) { return is_black(scene.materials[s.material].emission); });
 }
 
-HALFLIGHT_INLINE std::optional<PictureAudit::Seen> PictureAudit::seen(const ShownPicture& picture, double x, double y,
-                                                                      std::uint64_t& rays) const {
+HALFLIGHT_INLINE std::optional<raycast::ScenePoint> PictureAudit::seen(const ShownPicture& picture, double x, double y,
+                                                                       std::uint64_t& rays) const {
   const raycast::Scene& objects = prepared_->objects;
   raycast::Segment ray = picture.ray(x, y);
   ray.origin = (ray.origin - prepared_->frame.centre) * prepared_->frame.scale;
@@ -130,8 +132,8 @@ HALFLIGHT_INLINE std::optional<PictureAudit::Seen> PictureAudit::seen(const Show
     ++rays;
     const auto hit = objects.closest(ray, from, sheet);
     if (!hit) { return std::nullopt; }
-    const raycast::SurfacePoint point = objects.object(hit->object).project(hit->sheet, ray.at(hit->t));
-    if (hit->front && !objects.covered(point.position, point.normal, hit->object)) { return Seen{point, hit->object, hit->sheet}; }
+    const raycast::ScenePoint point = objects.point(*hit, ray);
+    if (hit->front && !objects.covered(point)) { return point; }
     ray.origin = point.position;
     from = hit->object;
     sheet = hit->sheet;
@@ -147,7 +149,7 @@ HALFLIGHT_INLINE std::optional<Color> PictureAudit::emitted(const ShownPicture& 
   // The 25 rays reach somewhat beyond the pixel, too: few paths would miss a lamp that covers only a sliver of it but shows in the picture.
   for (std::uint32_t k = 0; k < 25; ++k) {
     const auto at = seen(picture, x - 0.25 + 0.375 * (k % 5), y - 0.25 + 0.375 * (k / 5), rays);
-    const Color own = at ? emission(*at) : Color{0.0};  // a ray that leaves the scene meets no emission
+    const Color own = at ? tracer_.of(*at).emission : Color{0.0};  // a ray that leaves the scene meets no emission
     if (k == 0) { emitted = own; }
     if (own != emitted || (!all_emit_ && !is_black(own))) { return std::nullopt; }
     sees = sees || at.has_value();
@@ -164,7 +166,7 @@ namespace detail {
   double most = 0.0;
   for (std::size_t p = 0; p < radiosity.size(); ++p) {
     const Color shown = picture.radiosity(static_cast<std::uint32_t>(p % picture.width), static_cast<std::uint32_t>(p / picture.width));
-    radiosity[p] = std::isfinite(shown.x) && std::isfinite(shown.y) && std::isfinite(shown.z) ? shown : Color{0.0};
+    radiosity[p] = brep::is_finite(shown) ? shown : Color{0.0};
     most = std::max(most, brightest(radiosity[p]));
   }
   const double unit = most > 0.0 ? std::ldexp(1.0, -std::ilogb(most)) : 1.0;
@@ -215,8 +217,8 @@ HALFLIGHT_INLINE bool PictureAudit::aiming_pays(const Series& plain, const PathT
     const PixelDraw::Pixel pixel = plain.draw.draw(i, side, random);
     std::uint64_t own = 0;
     const auto at = seen(plain.picture, pixel.x + 0.5, pixel.y + 0.5, own);
-    if (!at || (!all_emit_ && !is_black(emission(*at)))) { return std::nullopt; }
-    return PathStart{at->point, at->object, at->sheet, pixel.weight};
+    if (!at || (!all_emit_ && !is_black(tracer_.of(*at).emission))) { return std::nullopt; }
+    return PathStart{*at, pixel.weight};
   };
   const auto points = static_cast<std::uint32_t>(PixelDraw::size(side));
   const AimingTry tried = try_aiming(plain.tracer, aimed, plain.seed, points, thread_count(threads), start);
@@ -239,10 +241,9 @@ HALFLIGHT_INLINE PictureAudit::Sample PictureAudit::measure_pixel(const Series& 
   const PathEstimates light{series.seed, key, paths, [&](PathNumbers& numbers) -> PathTracer::Light {
                               const double u = numbers.uniform();
                               const auto at = seen(picture, sample.x + u, sample.y + numbers.uniform(), sample.rays);
-                              edge = edge || (at ? emission(*at) : Color{0.0}) != *emits;
+                              edge = edge || (at ? tracer_.of(*at).emission : Color{0.0}) != *emits;
                               if (!at) { return {}; }
-                              return series.tracer.radiosity(at->point.position, at->point.normal, at->object, at->sheet, numbers,
-                                                             sample.rays);
+                              return series.tracer.radiosity(*at, numbers, sample.rays);
                             }};
   if (edge) { return sample; }
   const Color shown = unit_.to_unit(picture.radiosity(sample.x, sample.y));
@@ -273,7 +274,7 @@ HALFLIGHT_INLINE double PictureAudit::ray_price(const Series& series) const {
     std::uint64_t rays = 0;
     const auto at = seen(series.picture, pixel.x + 0.5, pixel.y + 0.5, rays);
     if (!at) { continue; }
-    static_cast<void>(series.tracer.radiosity(at->point.position, at->point.normal, at->object, at->sheet, random, cost));
+    static_cast<void>(series.tracer.radiosity(*at, random, cost));
   }
   return cost.mean();
 }

@@ -71,16 +71,11 @@ class PictureAudit {
     ErrorSums sums;
     std::uint64_t rays = 0;
   };
-  struct Seen {
-    raycast::SurfacePoint point;
-    std::uint32_t object = 0, sheet = 0;
-  };
 
   PictureAudit(const Scene& scene, const LightUnit& unit, Prepared prepared);
 
   // The first surface that faces the camera; back faces are looked through, as in the pictures (lookup.hpp).
-  [[nodiscard]] std::optional<Seen> seen(const ShownPicture& picture, double x, double y, std::uint64_t& rays) const;
-  [[nodiscard]] const Color& emission(const Seen& at) const { return tracer_.material(tracer_.surface(at.object, at.sheet)).emission; }
+  [[nodiscard]] std::optional<raycast::ScenePoint> seen(const ShownPicture& picture, double x, double y, std::uint64_t& rays) const;
 
   // The emitted light, when it is the same all over the pixel. Nothing when the pixel does not count because it sees nothing or shows a
   // lamp.

@@ -50,8 +50,7 @@ class FacePoints {
   [[nodiscard]] double total() const { return triangles_.empty() ? 0.0 : triangles_.back().until; }
 
   struct Point {
-    raycast::SurfacePoint at;
-    std::uint32_t node = no_node;
+    raycast::ScenePoint at;
     bool covered = false;
   };
   // The point at which the cumulative density reaches `share` of the total.
@@ -60,8 +59,9 @@ class FacePoints {
     const double u = random.uniform();
     const glm::dvec3 chord = triangle_point(triangle_weights(u, random.uniform()), t.a, t.b, t.c);
     const Node& node = scene.hierarchy[t.node];
-    const raycast::SurfacePoint at = scene.objects.object(node.object).project(scene.inputs[node.surface].sheet, chord);
-    return {at, t.node, scene.objects.covered(at.position, at.normal, node.object)};
+    const std::uint32_t sheet = scene.inputs[node.surface].sheet;
+    const raycast::ScenePoint at{scene.objects.object(node.object).project(sheet, chord), node.object, sheet};
+    return {at, scene.objects.covered(at)};
   }
 
  private:
@@ -92,11 +92,9 @@ struct Mean {
 };
 
 // One estimate of the radiosity that is reflected once, without the emission.
-[[nodiscard]] HALFLIGHT_INLINE Color reflected_once(const PathTracer& tracer, const raycast::SurfacePoint& at, std::uint32_t object,
-                                                    std::uint32_t sheet, Random& random) {
+[[nodiscard]] HALFLIGHT_INLINE Color reflected_once(const PathTracer& tracer, const raycast::ScenePoint& at, Random& random) {
   std::uint64_t rays = 0;
-  const auto light = tracer.radiosity(at.position, at.normal, object, sheet, random, rays, 1);
-  return light.direct - tracer.material(tracer.surface(object, sheet)).emission;
+  return tracer.radiosity(at, random, rays, 1).direct - tracer.of(at).emission;
 }
 
 // Square of that radiosity at a uniformly drawn point: the product of two independent estimates, whose noise cancels on average.
@@ -104,27 +102,21 @@ struct Mean {
                                                       double share, Random random) {
   const FacePoints::Point point = area.point(scene, share, random);
   if (point.covered) { return 0.0; }
-  const Node& node = scene.hierarchy[point.node];
   Color product{1.0};
-  for (int k = 0; k < 2; ++k) { product *= reflected_once(tracer, point.at, node.object, scene.inputs[node.surface].sheet, random); }
+  for (int k = 0; k < 2; ++k) { product *= reflected_once(tracer, point.at, random); }
   return brightest(product);
 }
 
 // Point where a ray from a lamp arrives at the front of a surface.
-struct LampRayEnd {
-  raycast::SurfacePoint at;
-  std::uint32_t object = 0, sheet = 0;
-};
-[[nodiscard]] HALFLIGHT_INLINE std::optional<LampRayEnd> end_of_lamp_ray(const DiscreteScene& scene, const FacePoints& lamps, double share,
-                                                                         Random& random) {
+[[nodiscard]] HALFLIGHT_INLINE std::optional<raycast::ScenePoint> end_of_lamp_ray(const DiscreteScene& scene, const FacePoints& lamps,
+                                                                                  double share, Random& random) {
   const FacePoints::Point from = lamps.point(scene, share, random);
   if (from.covered) { return std::nullopt; }
-  const Node& lamp = scene.hierarchy[from.node];
   const double u = random.uniform();
   const raycast::Segment ray{from.at.position, cosine_direction(from.at.normal, u, random.uniform()) * scene.objects.diameter()};
-  const auto hit = scene.objects.closest(ray, lamp.object, scene.inputs[lamp.surface].sheet);
+  const auto hit = scene.objects.closest(from.at, ray.direction);
   if (!hit || !hit->front) { return std::nullopt; }
-  return LampRayEnd{scene.objects.object(hit->object).project(hit->sheet, ray.at(hit->t)), hit->object, hit->sheet};
+  return scene.objects.point(*hit, ray);
 }
 
 // Distributions of points: uniform over the lit faces, and proportional to emission over the faces that are not buried.
@@ -145,13 +137,11 @@ struct FacesAndLamps {
 // radiosity that such rays bring over the area of the lit faces.
 [[nodiscard]] HALFLIGHT_INLINE double square_by_lamp(const DiscreteScene& scene, const PathTracer& tracer, const FacesAndLamps& faces,
                                                      double power, double share, Random random) {
-  const std::optional<LampRayEnd> end = end_of_lamp_ray(scene, faces.lamps, share, random);
+  const std::optional<raycast::ScenePoint> end = end_of_lamp_ray(scene, faces.lamps, share, random);
   if (!end) { return 0.0; }
-  const std::uint32_t surface = tracer.surface(end->object, end->sheet);
-  const double counts = faces.lit.weight_of_surface(surface);
+  const double counts = faces.lit.weight_of_surface(tracer.surface(end->object, end->sheet));
   if (!(counts > 0.0)) { return 0.0; }
-  return power * counts *
-         brightest(tracer.material(surface).reflectance * reflected_once(tracer, end->at, end->object, end->sheet, random));
+  return power * counts * brightest(tracer.of(*end).reflectance * reflected_once(tracer, *end, random));
 }
 
 }  // namespace detail

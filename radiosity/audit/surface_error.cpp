@@ -19,6 +19,7 @@
 #include <radiosity/audit/path_estimates.hpp>
 #include <radiosity/audit/path_tracer.hpp>
 #include <radiosity/hierarchy/surface.hpp>
+#include <radiosity/refinement/discrete_scene.hpp>
 #include <radiosity/result/error_estimate.hpp>
 #include <radiosity/result/mesh.hpp>
 #include <radiosity/scene/batches.hpp>
@@ -28,13 +29,12 @@
 #include <radiosity/support/draw.hpp>
 #include <radiosity/support/random.hpp>
 #include <radiosity/support/sobol.hpp>
-#include <radiosity/visibility/exposure.hpp>
 
 namespace radiosity {
 
-HALFLIGHT_INLINE SurfaceErrorMeter::SurfaceErrorMeter(const Scene& scene, const raycast::Scene& objects, const PathTracer& tracer,
-                                                      const Exposure& exposure, const Mesh& mesh, const Mesh* direct, std::uint64_t seed)
-    : objects_{&objects}, tracer_{&tracer}, exposure_{&exposure}, mesh_{&mesh}, direct_{direct}, inputs_{surfaces(scene)}, seed_{seed} {
+HALFLIGHT_INLINE SurfaceErrorMeter::SurfaceErrorMeter(const DiscreteScene& scene, const PathTracer& tracer, const Mesh& mesh,
+                                                      const Mesh* direct, std::uint64_t seed)
+    : scene_{&scene}, tracer_{&tracer}, mesh_{&mesh}, direct_{direct}, seed_{seed} {
   const auto corner = [&](std::uint32_t c) -> const glm::dvec3& { return mesh.positions[mesh.corners[c].vertex]; };
   for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) {
     const MeshFace& face = mesh.faces[f];
@@ -100,13 +100,13 @@ HALFLIGHT_INLINE std::optional<SurfaceErrorMeter::Spot> SurfaceErrorMeter::spot(
   const glm::uvec3 corners{face.first_corner, triangle.first, triangle.second};
   glm::dvec3 chord{0.0};
   for (int k = 0; k < 3; ++k) { chord += weight[k] * mesh_->positions[mesh_->corners[corners[k]].vertex]; }
-  const InputSurface& input = inputs_[face.surface];
-  if (!(exposure_->area[face.node] > 0.0)) { return std::nullopt; }
-  const raycast::SurfacePoint point = objects_->object(input.object).project(input.sheet, chord);
+  const InputSurface& input = scene_->inputs[face.surface];
+  if (!(scene_->exposure.area[face.node] > 0.0)) { return std::nullopt; }
+  const raycast::ScenePoint point{scene_->objects.object(input.object).project(input.sheet, chord), input.object, input.sheet};
   // Near the edge of a thin blade the nearest surface point may lie on the other side of the blade, which has leaves of its own.
   if (!(glm::dot(point.normal, outward(triangle)) > 0.0)) { return std::nullopt; }
   // A leaf that counts as exposed may still have a buried corner (exposure.hpp); paths from there start inside another object.
-  if (objects_->covered(point.position, point.normal, input.object)) { return std::nullopt; }
+  if (scene_->objects.covered(point)) { return std::nullopt; }
   return Spot{&triangle, weight, point};
 }
 
@@ -119,8 +119,7 @@ HALFLIGHT_INLINE std::uint64_t SurfaceErrorMeter::aim(const std::vector<Surface>
     Random random{seed_, i, 0x61696d696e67ull};
     const std::optional<Spot> at = spot(random, static_cast<double>(i) / points, 1.0 / points);
     if (!at) { return std::nullopt; }
-    const InputSurface& input = inputs_[mesh_->faces[at->triangle->face].surface];
-    return PathStart{at->point, input.object, input.sheet, 1.0 / (total_ * density(*at->triangle))};
+    return PathStart{at->point, 1.0 / (total_ * density(*at->triangle))};
   };
   const AimingTry tried = try_aiming(*tracer_, *aimed, seed_, points, threads, start);
   if (tried.pays) {
@@ -137,8 +136,7 @@ HALFLIGHT_INLINE double SurfaceErrorMeter::ray_price() const {
     Random random{seed_, i, 0x7072696365ull};
     const std::optional<Spot> at = spot(random, static_cast<double>(i) / points, 1.0 / points);
     if (!at) { continue; }
-    const InputSurface& input = inputs_[mesh_->faces[at->triangle->face].surface];
-    static_cast<void>(tracer_->radiosity(at->point.position, at->point.normal, input.object, input.sheet, random, cost));
+    static_cast<void>(tracer_->radiosity(at->point, random, cost));
   }
   return cost.mean();
 }
@@ -150,7 +148,6 @@ HALFLIGHT_INLINE SurfaceErrorMeter::Sample SurfaceErrorMeter::measure_one(std::u
   const std::optional<Spot> at = spot(random, from, width);
   if (!at) { return sample; }
   const MeshFace& face = mesh_->faces[at->triangle->face];
-  const InputSurface& input = inputs_[face.surface];
   const auto shown_by = [&, &weight = at->weight, triangle = at->triangle](const Mesh& of) {
     const glm::uvec3 corners{face.first_corner, triangle->first, triangle->second};
     Color sum{0.0};
@@ -158,9 +155,7 @@ HALFLIGHT_INLINE SurfaceErrorMeter::Sample SurfaceErrorMeter::measure_one(std::u
     return sum;
   };
   const Color shown = shown_by(*mesh_);
-  const PathEstimates light{seed_, key, paths, [&, &point = at->point](PathNumbers& numbers) {
-                              return tracer_->radiosity(point.position, point.normal, input.object, input.sheet, numbers, sample.rays);
-                            }};
+  const PathEstimates light{seed_, key, paths, [&](PathNumbers& numbers) { return tracer_->radiosity(at->point, numbers, sample.rays); }};
   const Color& emission = tracer_->material(face.surface).emission;
   const double weight_of_point = 1.0 / (total_ * density(*at->triangle));
   sample.leaf = weight_of_point * light.square_off(face.radiosity);

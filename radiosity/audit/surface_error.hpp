@@ -15,16 +15,14 @@
 #include <glm/vec3.hpp>
 
 #include <raycast/object.hpp>
-#include <raycast/scene.hpp>
 
 #include <radiosity/audit/path_tracer.hpp>
 #include <radiosity/hierarchy/surface.hpp>
+#include <radiosity/refinement/discrete_scene.hpp>
 #include <radiosity/result/error_estimate.hpp>
 #include <radiosity/result/mesh.hpp>
 #include <radiosity/scene/options.hpp>
-#include <radiosity/scene/scene.hpp>
 #include <radiosity/support/random.hpp>
-#include <radiosity/visibility/exposure.hpp>
 
 namespace radiosity {
 
@@ -40,8 +38,7 @@ class SurfaceErrorMeter {
  public:
   // `mesh` is in the frame. `direct`: the same mesh with only the light that was reflected once, or null. The references must outlive the
   // meter.
-  SurfaceErrorMeter(const Scene& scene, const raycast::Scene& objects, const PathTracer& tracer, const Exposure& exposure, const Mesh& mesh,
-                    const Mesh* direct, std::uint64_t seed);
+  SurfaceErrorMeter(const DiscreteScene& scene, const PathTracer& tracer, const Mesh& mesh, const Mesh* direct, std::uint64_t seed);
   SurfaceErrorMeter(const SurfaceErrorMeter&) = delete;
   SurfaceErrorMeter& operator=(const SurfaceErrorMeter&) = delete;
 
@@ -82,19 +79,17 @@ class SurfaceErrorMeter {
   struct Spot {
     const Triangle* triangle;
     glm::dvec3 weight{0.0};  // barycentric coordinates
-    raycast::SurfacePoint point;
+    raycast::ScenePoint point;
   };
   [[nodiscard]] std::optional<Spot> spot(Random& random, double from, double width) const;
   // Compares mesh and path tracer at such a point.
   [[nodiscard]] Sample measure_one(std::uint64_t key, double from, double width, std::uint32_t paths) const;
 
-  const raycast::Scene* objects_;
+  const DiscreteScene* scene_;
   const PathTracer* tracer_;
   std::optional<PathTracer> aimed_;
-  const Exposure* exposure_;
   const Mesh* mesh_;
   const Mesh* direct_;
-  std::vector<InputSurface> inputs_;
   std::vector<Triangle> triangles_;
   double total_ = 0.0, light_ = 0.0, contrast_ = 0.0;  // total area, and the integrals of light and contrast over it
   std::uint64_t keys_ = 0;                             // number of random sequences used so far

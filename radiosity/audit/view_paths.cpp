@@ -27,22 +27,17 @@ namespace radiosity {
 
 namespace detail {
 
-struct PathVertex {
-  raycast::SurfacePoint at;
-  std::uint32_t object = 0, sheet = 0;
-};
-
 // The first front face on a ray from the eye that is not buried.
-[[nodiscard]] HALFLIGHT_INLINE std::optional<PathVertex> seen_from(const raycast::Scene& objects, const glm::dvec3& eye,
-                                                                   const glm::dvec3& direction) {
+[[nodiscard]] HALFLIGHT_INLINE std::optional<raycast::ScenePoint> seen_from(const raycast::Scene& objects, const glm::dvec3& eye,
+                                                                            const glm::dvec3& direction) {
   constexpr int most = 64;  // limit of back faces passed
   raycast::Segment ray{eye, direction * (glm::length(eye) + objects.diameter())};
   std::uint32_t owner = raycast::no_object, sheet = 0;
   for (int passed = 0; passed < most; ++passed) {
     const auto hit = objects.closest(ray, owner, sheet);
     if (!hit) { return std::nullopt; }
-    const raycast::SurfacePoint at = objects.object(hit->object).project(hit->sheet, ray.at(hit->t));
-    if (hit->front && !objects.covered(at.position, at.normal, hit->object)) { return PathVertex{at, hit->object, hit->sheet}; }
+    const raycast::ScenePoint at = objects.point(*hit, ray);
+    if (hit->front && !objects.covered(at)) { return at; }
     ray = {ray.at(hit->t), ray.direction};
     owner = hit->object;
     sheet = hit->sheet;
@@ -63,32 +58,32 @@ struct ViewPath {
   const double z = 1.0 - 2.0 * random.uniform(), turn = 2.0 * std::numbers::pi * random.uniform();
   const double side = std::sqrt(std::max(0.0, 1.0 - z * z));
   const glm::dvec3 direction{side * std::cos(turn), side * std::sin(turn), z};
-  std::optional<PathVertex> at = seen_from(scene.objects, eye, direction);
+  std::optional<raycast::ScenePoint> at = seen_from(scene.objects, eye, direction);
   if (!at) { return path; }
-  const glm::dvec3 d = at->at.position - eye;
-  const double cosine = -glm::dot(direction, at->at.normal);
+  const glm::dvec3 d = at->position - eye;
+  const double cosine = -glm::dot(direction, at->normal);
   if (!(cosine > 0.0)) { return path; }
   // The share of the picture per unit of solid angle, independent of the scene's size.
-  path.share = from.share(scene.frame.to_scene(at->at.position), at->at.normal) * glm::dot(d, d) / cosine;
+  path.share = from.share(scene.frame.to_scene(at->position), at->normal) * glm::dot(d, d) / cosine;
   if (!(path.share > 0.0)) { return path; }
-  const Material& seen = tracer.material(tracer.surface(at->object, at->sheet));
+  const Material& seen = tracer.of(*at);
   if (is_black(seen.reflectance)) { return {}; }
   Color square{1.0};
   for (int k = 0; k < 2; ++k) {  // two independent estimates: the noise of their product cancels on average
     std::uint64_t rays = 0;
-    square *= tracer.radiosity(at->at.position, at->at.normal, at->object, at->sheet, random, rays, bounces).all - seen.emission;
+    square *= tracer.radiosity(*at, random, rays, bounces).all - seen.emission;
   }
   path.square = path.share * brightest(square);
-  path.points.push_back({tracer.surface(at->object, at->sheet), at->at, path.share});
+  path.points.push_back({tracer.surface(at->object, at->sheet), *at, path.share});
   double carried = path.share;
   for (int k = 0; k < bounces; ++k) {
-    carried *= brightest(tracer.material(tracer.surface(at->object, at->sheet)).reflectance);
+    carried *= brightest(tracer.of(*at).reflectance);
     const double u = random.uniform();
-    const raycast::Segment ray{at->at.position, cosine_direction(at->at.normal, u, random.uniform()) * scene.objects.diameter()};
-    const auto hit = scene.objects.closest(ray, at->object, at->sheet);
+    const raycast::Segment ray{at->position, cosine_direction(at->normal, u, random.uniform()) * scene.objects.diameter()};
+    const auto hit = scene.objects.closest(*at, ray.direction);
     if (!hit || !hit->front || !(carried > 0.0)) { break; }
-    at = PathVertex{scene.objects.object(hit->object).project(hit->sheet, ray.at(hit->t)), hit->object, hit->sheet};
-    path.points.push_back({tracer.surface(at->object, at->sheet), at->at, carried});
+    at = scene.objects.point(*hit, ray);
+    path.points.push_back({tracer.surface(at->object, at->sheet), *at, carried});
   }
   return path;
 }

@@ -73,7 +73,7 @@ class GatherPainter {
 HALFLIGHT_INLINE FinalGather::Indirect GatherPainter::indirect(const Fragment& fragment, const GatherRays& rays) const {
   const std::uint64_t pixel = blocks_.pixel(fragment.x, fragment.y);
   const std::uint64_t key = scramble(pixel ^ std::uint64_t{rays.least - gather_rays.least} << 32) ^ fragment.place.surface;
-  return light_.indirect(fragment.place, rays.least, rays.most, rays.error, key, rays.most_paths);
+  return light_.indirect(fragment.place, rays, key);
 }
 
 HALFLIGHT_INLINE IndirectPoint GatherPainter::gather_at(const Fragment& fragment) const {

@@ -92,8 +92,8 @@ HALFLIGHT_INLINE std::vector<LampPhoton> lamp_photons(const std::vector<Surface>
     const double own = probability(triangle);
     const auto& [a, b, c] = triangle.corner;
     const glm::dvec3 chord = triangle_point(triangle_weights(std::clamp((triangle.until - at) / own, 0.0, 1.0), u[3]), a, b, c);
-    const raycast::SurfacePoint from = triangle.of->object->project(triangle.sheet, chord);
-    const auto landed = meet(from, cosine_direction(from.normal, u[1], u[2]), triangle.object, triangle.sheet);
+    const raycast::ScenePoint from{triangle.of->object->project(triangle.sheet, chord), triangle.object, triangle.sheet};
+    const auto landed = meet(from, cosine_direction(from.normal, u[1], u[2]));
     if (landed) { photons.push_back({*landed, source(triangle), triangle.power / own}); }
   }
   return photons;
@@ -108,7 +108,7 @@ HALFLIGHT_INLINE std::vector<PhotonGrid::Photon> photons_by_lamp(const std::vect
   if (shining.size() < 2) { return {}; }
   std::vector<PhotonGrid::Photon> photons;
   for (const LampPhoton& photon : lamp_photons(surfaces, emission, meet, price)) {
-    photons.push_back({photon.landed.at.position, photon.landed.at.normal, photon.source});
+    photons.push_back({photon.landed.position, photon.landed.normal, photon.source});
   }
   return photons;
 }

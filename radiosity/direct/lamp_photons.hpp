@@ -19,17 +19,11 @@
 
 namespace radiosity {
 
-// A point where a photon landed on the front of a surface.
-struct Landing {
-  raycast::SurfacePoint at;
-  std::uint32_t object = 0, sheet = 0;
-};
-// The first hit of a ray from a point of this sheet; nothing if the ray meets a back face or leaves the scene.
-using MeetFront = std::function<std::optional<Landing>(const raycast::SurfacePoint& from, const glm::dvec3& direction, std::uint32_t object,
-                                                       std::uint32_t sheet)>;
+// The point where a ray from a surface first hits another; nothing if that shows its back there or the ray leaves the scene.
+using MeetFront = std::function<std::optional<raycast::ScenePoint>(const raycast::ScenePoint& from, const glm::dvec3& direction)>;
 
 struct LampPhoton {
-  Landing landed;
+  raycast::ScenePoint landed;
   std::uint32_t source = 0;  // the emitting input surface
   double power = 0.0;        // in a unit common to all photons
 };

@@ -19,13 +19,13 @@
 
 namespace radiosity {
 
-HALFLIGHT_INLINE PossibleOutline::PossibleOutline(const Facets& facets, const Facets::Part& part, const glm::dvec3& centre, double radius) {
+HALFLIGHT_INLINE PossibleOutline::PossibleOutline(const Facets& facets, const Facets::Part& part, const PointRegion& region) {
   enum class Faced : unsigned char { by_all, by_none, by_some };
   std::vector<Faced> faced;
   std::vector<std::uint32_t> number(part.facets_end - part.facets_begin, Facets::none);
   for (std::uint32_t f = part.facets_begin; f < part.facets_end; ++f) {
-    const double height = facets.facets[f].height(centre);
-    faced.push_back(height > radius ? Faced::by_all : height < -radius ? Faced::by_none : Faced::by_some);
+    const double height = facets.facets[f].height(region.centre);
+    faced.push_back(height > region.radius ? Faced::by_all : height < -region.radius ? Faced::by_none : Faced::by_some);
   }
   const auto take = [&](std::uint32_t f) {
     std::uint32_t& own = number[f - part.facets_begin];
@@ -56,8 +56,9 @@ HALFLIGHT_INLINE glm::dvec3 PossibleOutline::light_vector(const glm::dvec3& x, d
 }
 
 HALFLIGHT_INLINE std::optional<LinearLightVector> LinearLightVector::fit(const Facets::Part& part, const PossibleOutline& outline,
-                                                                         const glm::dvec3& centre, double radius, const glm::dvec3& normal,
-                                                                         double slack, std::vector<char>& facing) {
+                                                                         const PointRegion& region, double slack,
+                                                                         std::vector<char>& facing) {
+  const auto& [centre, radius, normal] = region;
   constexpr double near = 4.0;  // minimum distance in radii of the region; nearer, the fit is not accurate
   if (!(glm::length(part.centre - centre) > near * radius)) { return std::nullopt; }
   const auto scaled = [&](const glm::dvec3& x) {
@@ -69,7 +70,7 @@ HALFLIGHT_INLINE std::optional<LinearLightVector> LinearLightVector::fit(const F
   result.centre_ = centre;
   result.value_ = scaled(centre);
   if (!(radius > 0.0)) { return result; }
-  const bool planar = normal != glm::dvec3{0.0};
+  const bool planar = region.planar();
   const glm::dvec3 n = planar ? normal : glm::dvec3{0.0, 0.0, 1.0};
   const auto [s, t] = orthonormal(n);
   result.axes_ = {s, t, n};
@@ -119,7 +120,7 @@ HALFLIGHT_INLINE double roundness(const Facets& facets, const Facets::Part& part
     for (const double radii : {100.0, 1.1}) {
       const double distance = radii * part.radius;
       const glm::dvec3 x = part.centre + distance * out;
-      all.push_back({out, PossibleOutline{facets, part, x, 0.0}.light_vector(x, 0.0, facing) * (distance * distance)});
+      all.push_back({out, PossibleOutline{facets, part, {x}}.light_vector(x, 0.0, facing) * (distance * distance)});
       mean += glm::length(all.back().light) / (2.0 * directions);
     }
   }

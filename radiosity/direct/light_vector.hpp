@@ -19,11 +19,19 @@
 
 namespace radiosity {
 
+// Where light vectors are asked for: the points of a sphere or, if `normal` is not 0, of its disk with that normal.
+struct PointRegion {
+  glm::dvec3 centre{0.0};
+  double radius = 0.0;
+  glm::dvec3 normal{0.0};
+
+  [[nodiscard]] bool planar() const { return normal != glm::dvec3{0.0}; }
+};
+
 // The edges of a part of the facets that may lie on the outline seen from some point of a region.
 class PossibleOutline {
  public:
-  // The region is the sphere with this centre and radius.
-  PossibleOutline(const Facets& facets, const Facets::Part& part, const glm::dvec3& centre, double radius);
+  PossibleOutline(const Facets& facets, const Facets::Part& part, const PointRegion& region);
   // The area of the largest facet that faces some points of the region and not others.
   [[nodiscard]] double largest_turning() const { return largest_turning_; }
   // V(x) of the facets that face x, a point of the region more than `slack` above them. `facing`: scratch memory.
@@ -43,11 +51,9 @@ class PossibleOutline {
 // over a region far from the body a linear fit from few values suffices.
 class LinearLightVector {
  public:
-  // Fits the part's light vector over the sphere with this centre and radius or, if `normal` is not 0, over its disk with that normal.
-  // Nullopt if the error would exceed some 0.2 %. `outline`: of the same region.
+  // Fits the part's light vector over the region. Nullopt if the error would exceed some 0.2 %. `outline`: of the same region.
   [[nodiscard]] static std::optional<LinearLightVector> fit(const Facets::Part& part, const PossibleOutline& outline,
-                                                            const glm::dvec3& centre, double radius, const glm::dvec3& normal, double slack,
-                                                            std::vector<char>& facing);
+                                                            const PointRegion& region, double slack, std::vector<char>& facing);
   [[nodiscard]] glm::dvec3 at(const glm::dvec3& x) const;
 
  private:

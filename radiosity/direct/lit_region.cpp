@@ -25,12 +25,13 @@
 namespace radiosity {
 
 HALFLIGHT_INLINE LitRegion::LitRegion(const DirectLight& light, const raycast::PatchShape& shape, const glm::dvec3& normal)
-    : light_{&light}, owner_{shape.owner}, normal_{normal} {
+    : light_{&light}, owner_{shape.owner} {
+  region_.normal = normal;
   raycast::Box box;
   for (const glm::dvec3& p : shape.contour) { box.extend(p); }
-  centre_ = box.centre();
-  for (const glm::dvec3& p : shape.contour) { radius_ = std::max(radius_, glm::length(p - centre_)); }
-  radius_ += shape.bulge;
+  region_.centre = box.centre();
+  for (const glm::dvec3& p : shape.contour) { region_.radius = std::max(region_.radius, glm::length(p - region_.centre)); }
+  region_.radius += shape.bulge;
   // A point on a surface that a mesh stands in for lies close to that mesh, so it is lifted above it and has no owner.
   raycast::PatchShape from = shape;
   lift_ = owner_ != raycast::no_object ? light.lift(owner_) : 0.0;
@@ -38,11 +39,10 @@ HALFLIGHT_INLINE LitRegion::LitRegion(const DirectLight& light, const raycast::P
     from.owner = raycast::no_object;
     from.bulge += lift_;
   }
-  const bool planar = normal != glm::dvec3{0.0};
   for (std::uint32_t k = 0; k < light.lamps_.size(); ++k) {
     const DirectLight::Lamp& lamp = light.lamps_[k];
-    if (planar && glm::dot(normal, lamp.centre - centre_) <= -lamp.radius - radius_) { continue; }
-    if (lamp.flat && lamp.facets.facets[0].height(centre_) <= -radius_) { continue; }
+    if (region_.planar() && glm::dot(normal, lamp.centre - region_.centre) <= -lamp.radius - region_.radius) { continue; }
+    if (lamp.flat && lamp.facets.facets[0].height(region_.centre) <= -region_.radius) { continue; }
     Reach reach;
     reach.lamp = k;
     reach.list = light.objects_->occluders(from, lamp.shape());
@@ -55,7 +55,7 @@ HALFLIGHT_INLINE LitRegion::LitRegion(const DirectLight& light, const raycast::P
         if (shape.bulge == 0.0 && lift_ == 0.0) { leave_out_hidden(reach, shape.contour); }
       }
     }
-    const glm::dvec3 d = lamp.centre - centre_;
+    const glm::dvec3 d = lamp.centre - region_.centre;
     reach.may_give = brightest(lamp.exitance) * lamp.area / std::max(glm::dot(d, d), lamp.radius * lamp.radius);
     reaches_.push_back(std::move(reach));
   }
@@ -80,8 +80,8 @@ HALFLIGHT_INLINE double LitRegion::unhidden(std::size_t k, const glm::dvec3& x, 
 HALFLIGHT_INLINE const LitRegion::PartLight& LitRegion::known(std::optional<PartLight>& light, const Facets& facets,
                                                               const Facets::Part& part) {
   if (!light) {
-    light = PartLight{{facets, part, centre_, radius_}, {}};
-    light->vector = LinearLightVector::fit(part, light->outline, centre_, radius_, normal_, light_->slack_, facing_);
+    light = PartLight{{facets, part, region_}, {}};
+    light->vector = LinearLightVector::fit(part, light->outline, region_, light_->slack_, facing_);
   }
   return *light;
 }

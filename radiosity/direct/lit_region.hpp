@@ -161,9 +161,7 @@ class LitRegion {
 
   const DirectLight* light_;
   std::uint32_t owner_;
-  glm::dvec3 normal_{0.0};  // 0 if the points differ in it
-  glm::dvec3 centre_{0.0};
-  double radius_ = 0.0;
+  PointRegion region_;  // normal: 0 if the points differ in it
   double lift_ = 0.0;
   glm::dvec3 last_{0.0}, last_normal_{0.0}, last_lifted_{0.0};  // arguments and result of the last call of lifted()
   std::vector<Reach> reaches_;

@@ -73,11 +73,11 @@ HALFLIGHT_INLINE const LitRegion::Survey& LitRegion::survey(Reach& reach) {
   if (reach.survey) { return *reach.survey; }
   const DirectLight::Lamp& lamp = light_->lamps_[reach.lamp];
   Survey& result = reach.survey.emplace(Survey{.dark = true, .mixed = {}});
-  if (normal_ == glm::dvec3{0.0} || lamp.fine.empty()) { return result; }
+  if (!region_.planar() || lamp.fine.empty()) { return result; }
   constexpr std::size_t of_cell = 4;
   for (std::uint32_t cell = 0; cell < lamp.samples.size(); ++cell) {
     const std::span<const LampSample> samples = lamp.fine.of(cell);
-    const Asked16 asked = ask16(reach, centre_, normal_, samples.first(std::min(of_cell, samples.size())));
+    const Asked16 asked = ask16(reach, region_.centre, region_.normal, samples.first(std::min(of_cell, samples.size())));
     result.dark = result.dark && asked.seen == 0;
     const auto carrying = std::count_if(asked.weight.begin(), asked.weight.end(), [](double w) { return w > 0.0; });
     if (asked.seen != 0 && std::popcount(asked.seen) < carrying) { result.mixed.push_back(cell); }

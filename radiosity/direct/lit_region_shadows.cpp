@@ -50,11 +50,11 @@ HALFLIGHT_INLINE LitRegion::Reach::Outline LitRegion::outline_of(const DirectLig
   outline.facets = &convex.facets;
   const auto& facets = convex.facets.facets;
   for (std::uint32_t f = 1; f < facets.size(); ++f) {
-    if (facets[f].height(centre_) > facets[outline.nearest].height(centre_)) { outline.nearest = f; }
+    if (facets[f].height(region_.centre) > facets[outline.nearest].height(region_.centre)) { outline.nearest = f; }
   }
   const auto side = [&](std::uint32_t f) {  // 1: the whole region is in front of the facet, -1: behind it
-    const double height = facets[f].height(centre_), slack = light_->slack_;
-    return height > radius_ + slack ? 1 : height < -radius_ - slack ? -1 : 0;
+    const double height = facets[f].height(region_.centre), slack = light_->slack_;
+    return height > region_.radius + slack ? 1 : height < -region_.radius - slack ? -1 : 0;
   };
   for (const Facets::Edge& edge : convex.facets.edges) {
     const int left = side(edge.left);
@@ -98,7 +98,7 @@ HALFLIGHT_INLINE bool LitRegion::take_bodies(Reach& reach, const raycast::PatchS
     const std::size_t before = reach.faces.size();
     for (const Facets::Facet& facet : body.facets.facets) {
       // A back face of a closed body: its front faces hide as much.
-      if (body.closed && facet.height(centre_) <= slack - radius_) { continue; }
+      if (body.closed && facet.height(region_.centre) <= slack - region_.radius) { continue; }
       if (!shaft.empty() && shaft[0].misses(facet.contour)) { continue; }
       reach.faces.push_back({facet.contour, facet.normal});
     }
@@ -133,9 +133,9 @@ HALFLIGHT_INLINE detail::Umbra LitRegion::umbra_of(const Reach::Outline& outline
   detail::Umbra umbra;
   const auto& facets = outline.facets->facets;
   constexpr std::size_t most_facets = 32;  // enough for walls and furniture; with more, the test costs more than it saves
-  if (facets.size() > most_facets || !(facets[outline.nearest].height(centre_) > radius_ + light_->slack_)) { return {}; }
+  if (facets.size() > most_facets || !(facets[outline.nearest].height(region_.centre) > region_.radius + light_->slack_)) { return {}; }
   for (const Facets::Facet& facet : facets) {
-    if (facet.height(centre_) > -radius_) { umbra.fronts.push_back({facet.contour[0], -facet.normal}); }
+    if (facet.height(region_.centre) > -region_.radius) { umbra.fronts.push_back({facet.contour[0], -facet.normal}); }
   }
   for (const glm::dvec3& x : region) {
     make_cone(outline, x);
@@ -147,8 +147,8 @@ HALFLIGHT_INLINE detail::Umbra LitRegion::umbra_of(const Reach::Outline& outline
 
 HALFLIGHT_INLINE detail::Umbra LitRegion::umbra_of(const Blocker& face, std::span<const glm::dvec3> region) const {
   detail::Umbra umbra;
-  const double height = glm::dot(face.normal, centre_ - face.contour[0]);
-  if (!(std::abs(height) > radius_ + light_->slack_)) { return {}; }
+  const double height = glm::dot(face.normal, region_.centre - face.contour[0]);
+  if (!(std::abs(height) > region_.radius + light_->slack_)) { return {}; }
   umbra.fronts.push_back({face.contour[0], height > 0.0 ? -face.normal : face.normal});
   for (const glm::dvec3& x : region) {
     for (std::size_t i = 0; i < face.contour.size(); ++i) {
@@ -178,14 +178,14 @@ HALFLIGHT_INLINE void LitRegion::leave_out_hidden(Reach& reach, std::span<const 
   for (const Blocker& face : reach.faces) {
     double size = 0.0;
     for (std::size_t i = 1; i + 1 < face.contour.size(); ++i) {
-      const glm::dvec3 a = face.contour[0] - centre_, b = face.contour[i] - centre_, c = face.contour[i + 1] - centre_;
+      const glm::dvec3 a = face.contour[0] - region_.centre, b = face.contour[i] - region_.centre, c = face.contour[i + 1] - region_.centre;
       const double r2 = std::max(glm::dot(a + b + c, a + b + c) / 9.0, least_square);
       size += 0.5 * std::abs(glm::dot(a, glm::cross(b, c))) / (r2 * std::sqrt(r2));
     }
     shadows.push_back({size, &face, nullptr});
   }
   for (const Reach::Outline& outline : reach.outlines) {
-    const glm::dvec3 d = outline.centre - centre_;
+    const glm::dvec3 d = outline.centre - region_.centre;
     shadows.push_back({outline.radius * outline.radius / std::max(glm::dot(d, d), least_square), nullptr, &outline});
   }
   std::vector<Shadow*> by_size;

@@ -69,13 +69,22 @@ template <class Function>
   return cube * cube * cube * cube;
 }
 
-// The integral of f over [a, b], which is halved until the error of each part, error(length, rho^-12), is at most the tolerance.
+// A function with its singular points, and the error of the six-point rule for it: error(length, rho^-12).
 template <class Function, class Error>
-[[nodiscard]] double graded(const Function& f, double a, double b, std::span<const std::complex<double>> singular, const Error& error,
-                            double tolerance, int& asked) {
-  if (!(error(b - a, gauss6_decay(singular, a, b)) > tolerance)) { return gauss6(f, a, b, asked); }
+struct Integrand {
+  const Function& f;
+  std::span<const std::complex<double>> singular;
+  const Error& error;
+};
+template <class Function, class Error>
+Integrand(const Function&, std::span<const std::complex<double>>, const Error&) -> Integrand<Function, Error>;
+
+// The integral over [a, b], which is halved until the error of each part is at most the tolerance.
+template <class Function, class Error>
+[[nodiscard]] double graded(const Integrand<Function, Error>& of, double a, double b, double tolerance, int& asked) {
+  if (!(of.error(b - a, gauss6_decay(of.singular, a, b)) > tolerance)) { return gauss6(of.f, a, b, asked); }
   const double middle = 0.5 * (a + b);
-  return graded(f, a, middle, singular, error, tolerance, asked) + graded(f, middle, b, singular, error, tolerance, asked);
+  return graded(of, a, middle, tolerance, asked) + graded(of, middle, b, tolerance, asked);
 }
 
 // Integral of ln sqrt(x^2 + h^2) from 0 to x, without the term -x, which does not depend on h.
@@ -125,7 +134,7 @@ template <class Function, class Error>
   const auto error = [&](double length, double decay) {
     return 0.25 * sine * length * length * std::min(1.0, 25.0 * std::pow(decay, 11.0 / 12.0));
   };
-  return parallel + graded(change, 0.0, outer.length, singular, error, tolerance, asked);
+  return parallel + graded(Integrand{change, singular, error}, 0.0, outer.length, tolerance, asked);
 }
 
 // Edges at an angle that is not small; `normal` is the cross product of their directions and `sine` its length.
@@ -162,7 +171,7 @@ template <class Function, class Error>
       singular[k + 2] = {-u.real(), std::numbers::pi - u.imag()};
     }
     const auto error = [&](double length, double decay) { return factor * length * std::min(1.5, decay); };
-    rest = factor * graded(angle, u0, u1, singular, error, tolerance, asked);
+    rest = factor * graded(Integrand{angle, singular, error}, u0, u1, tolerance, asked);
   }
   return 0.5 * (sides - outer.length * inner.length + rest);
 }

@@ -29,11 +29,10 @@
 namespace radiosity {
 
 HALFLIGHT_INLINE RayCounter::RayCounter(const raycast::Scene& scene, const std::vector<std::vector<std::uint32_t>>& row_of,
-                                        const RaySource& source, std::uint32_t first_row, std::uint32_t source_rows, std::uint32_t rows,
-                                        std::uint64_t seed)
-    : scene_{&scene}, row_of_{&row_of}, source_{source}, first_row_{first_row}, source_rows_{source_rows}, rows_{rows}, seed_{seed} {
-  counts_.begun.assign(sequences * source_rows, 0);
-  counts_.hits.assign(sequences * source_rows * rows, 0);
+                                        const RaySource& source, std::uint32_t rows, std::uint64_t seed)
+    : scene_{&scene}, row_of_{&row_of}, source_{source}, rows_{rows}, seed_{seed} {
+  counts_.begun.assign(sequences * source.rows, 0);
+  counts_.hits.assign(sequences * source.rows * rows, 0);
   double area = 0.0;
   for (const Facet& facet : source.facets) { cumulative_.push_back(area += facet.area); }
   const raycast::Box& box = scene.object(source.object).bounds();
@@ -52,7 +51,7 @@ HALFLIGHT_INLINE void RayCounter::extend(std::uint64_t lines, unsigned threads) 
     own.begun.assign(counts_.begun.size(), 0);
     own.hits.assign(counts_.hits.size(), 0);
     for (std::size_t s = 0; s < sequences; ++s) {
-      const Sobol4 sequence{seed_, s + sequences * first_row_};
+      const Sobol4 sequence{seed_, s + sequences * source_.first_row};
       for (std::uint64_t i = first + w; i < lines; i += workers) { cast(s, sequence(static_cast<std::uint32_t>(i)), own); }
     }
   };
@@ -115,7 +114,7 @@ HALFLIGHT_INLINE void RayCounter::cast(std::size_t s, const std::array<double, 4
     const Facet& facet = source_.facets[index];
     const double rest = at - (index > 0 ? cumulative_[index - 1] : 0.0);
     const glm::dvec3 x = point_of(facet, rest, u[1]);
-    begin(s, source_.row, x, cosine_direction(facet.normal, u[2], u[3]), facet.normal, counts);
+    begin(s, source_.first_row, x, cosine_direction(facet.normal, u[2], u[3]), facet.normal, counts);
     return;
   }
   const raycast::PlacedObject& object = scene_->object(source_.object);
@@ -133,7 +132,7 @@ HALFLIGHT_INLINE void RayCounter::cast(std::size_t s, const std::array<double, 4
         normal = object.project(crossing->sheet, x).normal;
         if (surface && glm::dot(normal, direction) < 0.0) { direction = -direction; }
       }
-      begin(s, source_.rows[crossing->sheet], x, direction, normal, counts);
+      begin(s, source_.row_of_sheet[crossing->sheet], x, direction, normal, counts);
       if (surface) { break; }
     }
   }
@@ -175,7 +174,7 @@ HALFLIGHT_INLINE raycast::Segment RayCounter::line_of(const std::array<double, 4
 HALFLIGHT_INLINE void RayCounter::begin(std::size_t s, std::uint32_t row, const glm::dvec3& x, const glm::dvec3& direction,
                                         const glm::dvec3& normal, RayCounts& counts) const {
   if (source_.may_be_covered && scene_->covered(x, normal, source_.object)) { return; }
-  const std::size_t own = s * source_rows_ + row - first_row_;
+  const std::size_t own = s * source_.rows + row - source_.first_row;
   ++counts.begun[own];
   const double reach = glm::length(direction);
   const auto hit = scene_->closest({x, direction * (scene_->diameter() / reach)}, source_.object);

@@ -36,10 +36,10 @@ struct Facet {
 // Where rays begin, and to which rows their first hits are counted.
 struct RaySource {
   std::uint32_t object = 0;
-  bool may_be_covered = false;          // must points be tested for being exposed?
-  std::span<const Facet> facets;        // of a flat object; if empty, lines through the object's bounds are used
-  std::uint32_t row = 0;                // row of the facets
-  std::span<const std::uint32_t> rows;  // rows of the object's sheets, if there are no facets
+  bool may_be_covered = false;    // must points be tested for being exposed?
+  std::span<const Facet> facets;  // of a flat object; if empty, lines through the object's bounds are used
+  std::uint32_t first_row = 0, rows = 1;
+  std::span<const std::uint32_t> row_of_sheet;  // if there are no facets
 };
 
 inline constexpr std::size_t sequences = 16;
@@ -48,14 +48,14 @@ inline constexpr std::size_t sequences = 16;
 struct RayCounts {
   std::uint64_t lines = 0;           // lines or points cast so far, by each sequence
   std::vector<std::uint64_t> begun;  // rays from exposed points of each row
-  std::vector<std::uint64_t> hits;   // [(sequence * source rows + source row) * rows + row]; source rows count from first_row
+  std::vector<std::uint64_t> hits;   // [(sequence * source rows + source row) * rows + row]; source rows count from its first_row
 };
 
 class RayCounter {
  public:
   // `row_of[object][sheet]`: rows are numbered 0 to `rows` - 1 without gaps. The rows of a source are consecutive.
   RayCounter(const raycast::Scene& scene, const std::vector<std::vector<std::uint32_t>>& row_of, const RaySource& source,
-             std::uint32_t first_row, std::uint32_t source_rows, std::uint32_t rows, std::uint64_t seed);
+             std::uint32_t rows, std::uint64_t seed);
 
   // Casts until each sequence has used `lines` points.
   void extend(std::uint64_t lines, unsigned threads);
@@ -75,9 +75,11 @@ class RayCounter {
   [[nodiscard]] Mean area(std::uint32_t from) const;
 
  private:
-  [[nodiscard]] std::uint64_t begun(std::size_t s, std::uint32_t from) const { return counts_.begun[s * source_rows_ + from - first_row_]; }
+  [[nodiscard]] std::uint64_t begun(std::size_t s, std::uint32_t from) const {
+    return counts_.begun[s * source_.rows + from - source_.first_row];
+  }
   [[nodiscard]] std::uint64_t hits(std::size_t s, std::uint32_t from, std::uint32_t to) const {
-    return counts_.hits[(s * source_rows_ + from - first_row_) * rows_ + to];
+    return counts_.hits[(s * source_.rows + from - source_.first_row) * rows_ + to];
   }
   [[nodiscard]] static Mean mean_of(const std::array<double, sequences>& values);
   template <class Count>
@@ -107,7 +109,7 @@ class RayCounter {
   const raycast::Scene* scene_;
   const std::vector<std::vector<std::uint32_t>>* row_of_;
   RaySource source_;
-  std::uint32_t first_row_, source_rows_, rows_;
+  std::uint32_t rows_;
   std::uint64_t seed_;
   RayCounts counts_;
   std::vector<double> cumulative_;

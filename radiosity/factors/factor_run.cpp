@@ -208,8 +208,8 @@ HALFLIGHT_INLINE std::vector<std::shared_ptr<RayCounter>> FactorRun::by_rays() {
     bool needed = false;
     for (std::uint32_t k = i; k < end; ++k) { needed = needed || needs_rays(k); }
     if (needed && !(row.exact && row.facets.empty())) {  // exact without facets: completely buried
-      RaySource source{row.object, !row.exact && may_be_covered(row.object), row.facets, i, rows.row_of[row.object]};
-      auto counter = std::make_shared<RayCounter>(scene, rows.row_of, source, i, end - i, n, options.seed);
+      RaySource source{row.object, !row.exact && may_be_covered(row.object), row.facets, i, end - i, rows.row_of[row.object]};
+      auto counter = std::make_shared<RayCounter>(scene, rows.row_of, source, n, options.seed);
       run(*counter, i, end);
       for (std::uint32_t k = i; k < end; ++k) {
         counters[k] = counter;

@@ -32,8 +32,14 @@ namespace detail {
 class ObjectMaker {
  public:
   ObjectMaker(Working& mesh, const Topology& topology, const PolygonView& input, std::span<const Material> materials,
-              const IntakeOptions& options, std::span<const FlushFace> flush, std::span<const DecalFace> decals)
-      : mesh_(mesh), topology_(topology), input_(input), options_(options), shells_(mesh, topology, materials, options) {
+              const IntakeOptions& options)
+      : mesh_(mesh),
+        topology_(topology),
+        input_(input),
+        options_(options),
+        flush_(lay_lamps(mesh, topology, materials)),
+        decals_(lay_decals(mesh, topology, materials)),
+        shells_(mesh, topology, materials, options) {
     local_.assign(topology.vertices, none);
     face_of_.resize(topology.mate.size());
     for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) {
@@ -42,8 +48,8 @@ class ObjectMaker {
     shells_.find_roles();
     if (options.sides_unknown || options.open_sides_unknown) { show_both_sides(mesh, topology, options.sides_unknown, shells_); }
     const std::vector<bool> two_sided = faces_with_backs();
-    turn_lamps(mesh, topology, materials, flush, two_sided, shells_);
-    mark_decals(mesh, topology, decals, two_sided, shells_);
+    turn_lamps(mesh, topology, materials, flush_, two_sided, shells_);
+    mark_decals(mesh, topology, decals_, two_sided, shells_);
     for (const Component& component : shells_.components()) {
       if (!component.both_sides || component.one_sided) { continue; }
       const auto polygon = [&](std::uint32_t f) { return mesh.faces[f].polygon; };
@@ -233,6 +239,8 @@ class ObjectMaker {
   const Topology& topology_;
   const PolygonView& input_;
   const IntakeOptions& options_;
+  std::vector<FlushFace> flush_;  // found before shells are measured, because finding them moves vertices; so are decals_
+  std::vector<DecalFace> decals_;
   Shells shells_;
   std::vector<std::uint32_t> local_;    // by vertex: its number in the current object
   std::vector<std::uint32_t> face_of_;  // by side
@@ -247,10 +255,7 @@ class ObjectMaker {
 
 HALFLIGHT_INLINE MadeObjects make_objects(Working& mesh, const Topology& topology, const PolygonView& input,
                                           std::span<const Material> materials, const IntakeOptions& options) {
-  // Before shells are measured, because these move vertices.
-  const std::vector<FlushFace> flush = lay_lamps(mesh, topology, materials);
-  const std::vector<DecalFace> decals = lay_decals(mesh, topology, materials);
-  return detail::ObjectMaker(mesh, topology, input, materials, options, flush, decals).run();
+  return detail::ObjectMaker(mesh, topology, input, materials, options).run();
 }
 
 HALFLIGHT_INLINE PolygonParts parts_of(const Working& mesh, std::span<const SheetOrigin> sheets, std::size_t polygons) {

@@ -101,17 +101,16 @@ HALFLIGHT_INLINE RayCount LinkEvaluator::operator()(Link& link, const raycast::O
     // The patches face away from each other, but if they are curved, parts of their surfaces may face each other.
     const double light = variation != nullptr && (p.bent || q.bent) ? light_varies.light : 0.0;
     if (!(light > 0.0)) { return {}; }
-    const VisibilityEstimate seen = visibility(scene_, list, end(link.p), end(link.q), 1, Random{seed_, key_of(link)});
+    const VisibilityEstimate seen = visibility(scene_, list, ends(link), 1, Random{seed_, key_of(link)});
     variation->sampling = static_cast<float>(seen.fraction > 0.0 ? light : missed(light, *variation, seen.rays.cast));
     return seen.rays;
   }
   const std::uint64_t key = key_of(link);
-  const PatchEnd end_p = end(link.p);
-  const PatchEnd end_q = end(link.q);
+  const PatchPair pair = ends(link);
   const std::optional<VisibilityEstimate> measured = measured_visibility(link);
-  const VisibilityEstimate seen = measured ? *measured : visibility(scene_, list, end_p, end_q, patch_rounds, Random{seed_, key});
+  const VisibilityEstimate seen = measured ? *measured : visibility(scene_, list, pair, patch_rounds, Random{seed_, key});
   // On curved objects the area of the finer leaves counts, too, because the patch passes light on to them with its own kernel.
-  const double share = exposed_share(end_p, area_p, q) * exposed_share(end_q, area_q, p);
+  const double share = exposed_share(pair.p, area_p, q) * exposed_share(pair.q, area_q, p);
   link.exchange = static_cast<float>(unoccluded * seen.fraction * share);
   if (varying) {
     set_gradients(link, light_varies);

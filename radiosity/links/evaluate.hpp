@@ -140,7 +140,7 @@ class LinkEvaluator {
   // Casts the segments of a link between patches with exposed ends as if nothing were known about blockers; appends them to `seen` if
   // given.
   [[nodiscard]] VisibilityEstimate segments(const Link& link, std::vector<CastSegment>* seen = nullptr) const {
-    return visibility(scene_, {}, end(link.p), end(link.q), patch_rounds, Random{seed_, key_of(link)}, seen);
+    return visibility(scene_, {}, ends(link), patch_rounds, Random{seed_, key_of(link)}, seen);
   }
 
  private:
@@ -171,6 +171,8 @@ class LinkEvaluator {
   [[nodiscard]] PatchEnd end(std::uint32_t i) const {
     return {&scene_.patches[i], scene_.hierarchy[i].object, exposure_->points(i), scene_.sheet(i)};
   }
+
+  [[nodiscard]] PatchPair ends(const Link& link) const { return {end(link.p), end(link.q)}; }
 
   SceneView scene_;
   const Exposure* exposure_;

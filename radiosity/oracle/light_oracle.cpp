@@ -233,7 +233,7 @@ HALFLIGHT_INLINE std::uint32_t LightOracle::wants_split(const Question& question
                                          : detail::factors_to_disk(to, scene_.patches[receiver], from);
   const auto end_at = [&](std::uint32_t i) { return PatchEnd{&scene_.patches[i], nodes[i].object, nullptr, scene_.sheet(i)}; };
   const bool split = detail::varies(weight * factor.low, weight * factor.high, epsilon_, tolerance, rays, [&](std::uint64_t round) {
-    const VisibilityEstimate seen = visibility(scene_, *question.between, end_at(receiver), end_at(lamp), 1,
+    const VisibilityEstimate seen = visibility(scene_, *question.between, {end_at(receiver), end_at(lamp)}, 1,
                                                Random{seed_, (std::uint64_t{p} << 32) | q, 0x736861646f77ull + round});
     return std::pair{seen.fraction, seen.rays};
   });

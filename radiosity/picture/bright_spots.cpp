@@ -196,17 +196,18 @@ HALFLIGHT_INLINE const BrightSpots::Spot& BrightSpots::spot_at(const Group& grou
   return drawn(std::span(spots_).subspan(group.first, group.last - group.first), number * group.power);
 }
 
-HALFLIGHT_INLINE BrightSpots::Target BrightSpots::point_of(const Spot& spot, double u, double v) const {
+HALFLIGHT_INLINE raycast::ScenePoint BrightSpots::point_of(const Spot& spot, double u, double v) const {
   const auto& [a, b, c] = lookup_->triangle(lookup_->surface(spot.object, spot.sheet), spot.triangle).position;
   const glm::dvec3 chord = triangle_point(triangle_weights(u, v), a, b, c);
   return {lookup_->objects().object(spot.object).project(spot.sheet, chord), spot.object, spot.sheet};
 }
 
-HALFLIGHT_INLINE bool BrightSpots::reached(const DirectLight& direct, const Target& target, const glm::dvec3& from, const Met& met) {
+HALFLIGHT_INLINE bool BrightSpots::reached(const DirectLight& direct, const raycast::ScenePoint& target, const glm::dvec3& from,
+                                           const raycast::ScenePoint& met) {
   if (met.object != target.object || met.sheet != target.sheet) { return false; }
-  const glm::dvec3 off = met.point.position - target.point.position, d = target.point.position - from;
+  const glm::dvec3 off = met.position - target.position, d = target.position - from;
   const double lift = direct.lift(target.object);
-  if (lift > 0.0) { return std::abs(glm::dot(off, target.point.normal)) <= 4.0 * lift; }
+  if (lift > 0.0) { return std::abs(glm::dot(off, target.normal)) <= 4.0 * lift; }
   return glm::dot(off, off) <= 1e-6 * glm::dot(d, d);
 }
 
@@ -222,10 +223,10 @@ HALFLIGHT_INLINE void BrightSpots::send16(const DirectLight& direct, std::uint32
     const Spot& spot = spot_at(groups_[g], rest);
     // Position within the spot's interval, reused as the fourth random number.
     const double left = (rest * groups_[g].power - (spot.until - spot.power)) / spot.power;
-    const Target from = point_of(spot, u[3], std::clamp(left, 0.0, 1.0));
+    const raycast::ScenePoint from = point_of(spot, u[3], std::clamp(left, 0.0, 1.0));
     const double lift = direct.lift(from.object);  // the true surface may lie behind the mesh that stands in for it
-    const glm::dvec3 above = direct.lifted(from.object, from.point.position, from.point.normal);
-    rays.set(k, {above, reach * cosine_direction(from.point.normal, u[1], u[2])}, lift > 0.0 ? raycast::no_object : from.object,
+    const glm::dvec3 above = direct.lifted(from.object, from.position, from.normal);
+    rays.set(k, {above, reach * cosine_direction(from.normal, u[1], u[2])}, lift > 0.0 ? raycast::no_object : from.object,
              raycast::no_object, from.sheet);
     group[k] = static_cast<std::uint32_t>(g);
     ++photons.sent[g];
@@ -234,11 +235,11 @@ HALFLIGHT_INLINE void BrightSpots::send16(const DirectLight& direct, std::uint32
   for (std::uint32_t rest = hits.met; rest != 0; rest &= rest - 1) {
     const auto k = static_cast<unsigned>(std::countr_zero(rest));
     if (!hits.hit[k].front) { continue; }
-    const Met at = met(lookup_->objects(), direct, hits.hit[k], rays.at(k));
-    const auto found = lookup_->find(at.object, at.sheet, at.point);
+    const raycast::ScenePoint at = met(lookup_->objects(), direct, hits.hit[k], rays.at(k));
+    const auto found = lookup_->find(at);
     const bool on_spot = found && spot_of_[lookup_->surface(at.object, at.sheet)][found->triangle] != detail::no_spot;
     photons.elsewhere[group[k]] += on_spot ? 0 : 1;
-    photons.landed.push_back({at.point.position, at.point.normal, group[k], 0.0});
+    photons.landed.push_back({at.position, at.normal, group[k], 0.0});
   }
 }
 
@@ -307,7 +308,7 @@ HALFLIGHT_INLINE BrightSpots::From::From(const BrightSpots& spots, const glm::dv
 
 HALFLIGHT_INLINE double BrightSpots::From::contrast(double light) const { return border_ > 0.0 ? std::sqrt(border_) / light : 0.0; }
 
-HALFLIGHT_INLINE BrightSpots::Target BrightSpots::From::choose(const std::array<double, 4>& numbers) const {
+HALFLIGHT_INLINE raycast::ScenePoint BrightSpots::From::choose(const std::array<double, 4>& numbers) const {
   const auto [g, rest] = group_at(until_, numbers[0]);
   return spots_->point_of(spots_->spot_at(spots_->groups_[g], rest), numbers[1], numbers[2]);
 }

@@ -39,14 +39,10 @@ class BrightSpots {
 
   [[nodiscard]] bool empty() const { return groups_.empty(); }
 
-  struct Target {
-    raycast::SurfacePoint point;
-    std::uint32_t object = 0, sheet = 0;
-  };
-
   // Has a ray from `from`, aimed at a target, met it? If meshes stand in for the target's object (direct_light.hpp), the hit may be
   // slightly off the target.
-  [[nodiscard]] static bool reached(const DirectLight& direct, const Target& target, const glm::dvec3& from, const Met& met);
+  [[nodiscard]] static bool reached(const DirectLight& direct, const raycast::ScenePoint& target, const glm::dvec3& from,
+                                    const raycast::ScenePoint& met);
 
   // The distribution of the spots' light as seen from a point of a surface.
   class From {
@@ -62,7 +58,7 @@ class BrightSpots {
     // spots.
     [[nodiscard]] bool spread_more_than(double light) const { return square_ > light * light; }
     // Chooses a point of the spots, by numbers in (0, 1).
-    [[nodiscard]] Target choose(const std::array<double, 4>& numbers) const;
+    [[nodiscard]] raycast::ScenePoint choose(const std::array<double, 4>& numbers) const;
     // Probability density by area with which choose() picks points of this triangle of an input surface; 0 if it is no spot.
     [[nodiscard]] double density(std::uint32_t surface, std::uint32_t triangle) const;
     // The density with which choose() picks a place `there` seen from `here`, relative to that of a uniform ray.
@@ -109,7 +105,7 @@ class BrightSpots {
   // Chooses a spot of a group by power.
   [[nodiscard]] const Spot& spot_at(const Group& group, double number) const;
   // A point uniformly distributed on a spot's triangle, by two numbers in (0, 1).
-  [[nodiscard]] Target point_of(const Spot& spot, double u, double v) const;
+  [[nodiscard]] raycast::ScenePoint point_of(const Spot& spot, double u, double v) const;
   struct Photons {
     std::vector<std::uint32_t> sent, elsewhere;  // by group: photons sent, and how many of them landed outside the spots
     std::vector<SpotPhotons::Photon> landed;

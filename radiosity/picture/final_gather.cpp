@@ -73,14 +73,11 @@ HALFLIGHT_INLINE PhotonGrid FinalGather::send_lamp_photons(const std::vector<Sur
   for (std::uint32_t s = 0; s < emission.size(); ++s) {
     if (!direct_.is_lamp(s)) { emission[s] = Color{0.0}; }
   }
-  const auto meet = [&](const raycast::SurfacePoint& from, const glm::dvec3& direction, std::uint32_t object,
-                        std::uint32_t sheet) -> std::optional<Landing> {
-    const double lift = direct_.lift(object);
-    const raycast::Segment ray{direct_.lifted(object, from.position, from.normal), direction * objects().diameter()};
-    const auto hit = direct_.objects().closest(ray, lift > 0.0 ? raycast::no_object : object, sheet);
-    if (!hit || !hit->front) { return std::nullopt; }
-    const Met landed = met(*hit, ray);
-    return Landing{landed.point, landed.object, landed.sheet};
+  const auto meet = [&](const raycast::ScenePoint& from, const glm::dvec3& direction) -> std::optional<raycast::ScenePoint> {
+    const double lift = direct_.lift(from.object);
+    const raycast::Segment ray{direct_.lifted(from.object, from.position, from.normal), direction * objects().diameter()};
+    const auto hit = direct_.objects().closest(ray, lift > 0.0 ? raycast::no_object : from.object, from.sheet);
+    return hit && hit->front ? std::optional{met(*hit, ray)} : std::nullopt;
   };
   std::vector<PhotonGrid::Photon> photons = photons_by_lamp(boundaries, emission, meet, direct_.objects().ray_work());
   for (PhotonGrid::Photon& photon : photons) {
@@ -109,11 +106,11 @@ HALFLIGHT_INLINE std::array<std::optional<FinalGather::Place>, 16> FinalGather::
   raycast::Segments16 rays;
   for (unsigned i = 0; i < directions.size(); ++i) { rays.set(i, {eye.position, directions[i]}, raycast::no_object, raycast::no_object); }
   pass_through(scene, rays, [&](unsigned i, const raycast::Hit& hit, const raycast::Segment& ray, int passed) -> std::optional<glm::dvec3> {
-    const Met found = outlines ? Met{objects().object(hit.object).project(hit.sheet, ray.at(hit.t)), hit.object, hit.sheet} : met(hit, ray);
+    const raycast::ScenePoint found = outlines ? objects().point(hit, ray) : met(hit, ray);
     const bool from_air = eye.in_air && passed == 0;
-    const bool shown = hit.front && (from_air || !objects().covered(found.point.position, found.point.normal, found.object));
+    const bool shown = hit.front && (from_air || !objects().covered(found));
     if (!shown) { return ray.at(hit.t); }
-    result[i] = Place{found.point, found.object, lookup_.surface(found.object, found.sheet)};
+    result[i] = Place{found, found.object, lookup_.surface(found.object, found.sheet)};
     return std::nullopt;
   });
   return result;
@@ -177,15 +174,15 @@ inline constexpr double least_distance = 0.1;  // lower limit of the distances o
 
 }  // namespace detail
 
-HALFLIGHT_INLINE FinalGather::Arriving FinalGather::arriving(const Sender& sender, const Met& found) const {
+HALFLIGHT_INLINE FinalGather::Arriving FinalGather::arriving(const Sender& sender, const raycast::ScenePoint& found) const {
   const std::uint32_t surface = lookup_.surface(found.object, found.sheet);
   const Color lamp = direct_.is_lamp(surface) ? materials_[surface].emission : Color{0.0};
   if (is_black(materials_[surface].reflectance)) { return {materials_[surface].emission - lamp}; }
-  const std::optional<Lookup::Found> light = lookup_.find(found.object, found.sheet, found.point);
+  const std::optional<Lookup::Found> light = lookup_.find(found);
   if (!light) { return {}; }
   double aimed = 0.0;
   if (sender.aimed > 0) {
-    aimed = sender.aimed / 4.0 * sender.spots.aimed(surface, *light, {sender.from, sender.place.point.normal}, found.point);
+    aimed = sender.aimed / 4.0 * sender.spots.aimed(surface, *light, {sender.from, sender.place.point.normal}, found);
   }
   return {light->radiosity - lamp, aimed, light->coarse_within};
 }
@@ -206,7 +203,7 @@ HALFLIGHT_INLINE void FinalGather::cast_evenly(const Sender& sender, const Sobol
     sum.nearness += 1.0 / distance;
     sum.distances.push_back(distance);
     if (!hit.front) { continue; }
-    const Met at = met(hit, segments.at(k));
+    const raycast::ScenePoint at = met(hit, segments.at(k));
     const Arriving found = arriving(sender, at);
     const bool near = hit.t * reach < found.coarse_within;
     if (near) { sum.near.push_back({at, found.light}); }
@@ -217,11 +214,11 @@ HALFLIGHT_INLINE void FinalGather::cast_evenly(const Sender& sender, const Sobol
 HALFLIGHT_INLINE void FinalGather::cast_at_spots(const Sender& sender, const Sobol4& sequence, std::uint32_t first, Sum& sum) const {
   const double reach = objects().diameter(), least = detail::least_distance * direct_.off_surface();
   raycast::Segments16 segments;
-  std::array<BrightSpots::Target, 16> targets;
+  std::array<raycast::ScenePoint, 16> targets;
   for (unsigned k = 0; k < 16; ++k) {
     targets[k] = sender.spots.choose(sequence(first + k));
-    const glm::dvec3 d = targets[k].point.position - sender.from;
-    if (!(glm::dot(d, sender.place.point.normal) > 0.0) || !(glm::dot(d, targets[k].point.normal) < 0.0)) { continue; }
+    const glm::dvec3 d = targets[k].position - sender.from;
+    if (!(glm::dot(d, sender.place.point.normal) > 0.0) || !(glm::dot(d, targets[k].normal) < 0.0)) { continue; }
     segments.set(k, {sender.from, reach * glm::normalize(d)}, sender.owner, raycast::no_object, sender.sheet);
   }
   if (segments.lanes == 0) { return; }
@@ -230,22 +227,23 @@ HALFLIGHT_INLINE void FinalGather::cast_at_spots(const Sender& sender, const Sob
     const auto k = static_cast<unsigned>(std::countr_zero(rest));
     const raycast::Hit& hit = hits.hit[k];
     if (!hit.front || direct_.whole(hit.object) != targets[k].object) { continue; }
-    const Met found = met(hit, segments.at(k));
+    const raycast::ScenePoint found = met(hit, segments.at(k));
     if (!BrightSpots::reached(direct_, targets[k], sender.from, found)) { continue; }
-    const Arriving light = arriving(sender, {targets[k].point, targets[k].object, targets[k].sheet});
+    const Arriving light = arriving(sender, targets[k]);
     if (!(light.aimed > 0.0) || hits.hit[k].t * reach < light.coarse_within) { continue; }
     sum.add(k / 4, light.light / (1.0 + light.aimed), std::max(hit.t * reach, least));
     ++sum.spots_met;
   }
 }
 
-HALFLIGHT_INLINE double FinalGather::mend_near(Sum& sum, const Place& place, double all, std::uint32_t rays, double most_paths,
-                                               double error, std::uint64_t key) const {
+HALFLIGHT_INLINE double FinalGather::mend_near(Sum& sum, const Place& place, double all, std::uint32_t rays, const GatherRays& effort,
+                                               std::uint64_t key) const {
   Color near{0.0};
   for (const NearLight::Seen& seen : sum.near) { near += seen.light; }
   const double share = (near.x + near.y + near.z) / all;
   if (!(share > detail::least_near)) { return 0.0; }
-  const double wanted = std::min(most_paths, most_paths / detail::plain_paths * std::pow(share / error, 2.0));
+  const double most = effort.most_paths;
+  const double wanted = std::min(most, most / detail::plain_paths * std::pow(share / effort.error, 2.0));
   constexpr std::uint32_t step = NearLight::paths_at_once;
   const BrightSpots::From spots{spots_, place.point.position};
   const bool aimed = !spots_.empty() && spots.spread_more_than(all / rays);
@@ -267,8 +265,8 @@ HALFLIGHT_INLINE double FinalGather::irradiance_solved(const Place& place) const
   return of_reflected_channels(place, reflected / material.reflectance);
 }
 
-HALFLIGHT_INLINE FinalGather::Indirect FinalGather::indirect(const Place& place, std::uint32_t least, std::uint32_t most, double error,
-                                                             std::uint64_t key, std::uint32_t most_paths) const {
+HALFLIGHT_INLINE FinalGather::Indirect FinalGather::indirect(const Place& place, const GatherRays& effort, std::uint64_t key) const {
+  const double error = effort.error;
   const Sobol4 sequence{1, key}, aiming{2, key};
   const double lift = direct_.lift(place.object);
   Sender sender{place,
@@ -280,7 +278,7 @@ HALFLIGHT_INLINE FinalGather::Indirect FinalGather::indirect(const Place& place,
   // Rays are aimed if the spots alone would leave the least number of uniform rays with more than half of the wanted error. The decision
   // uses the solution, not the spread of the rays: rays that all miss the spots agree with each other, and points that come out too dark
   // would be favoured.
-  if (const double contrast = sender.spots.contrast(solved_light); contrast > 0.5 * error * std::sqrt(static_cast<double>(least))) {
+  if (const double contrast = sender.spots.contrast(solved_light); contrast > 0.5 * error * std::sqrt(static_cast<double>(effort.least))) {
     sender.aimed = static_cast<std::uint32_t>(std::clamp(0.5 * contrast, 1.0, detail::most_aimed));
   }
   Sum sum;
@@ -301,16 +299,14 @@ HALFLIGHT_INLINE FinalGather::Indirect FinalGather::indirect(const Place& place,
     return of_reflected_channels(place, *direct) >= wanted;
   };
   const auto exact_enough = [&] { return variance_of_mean() <= error * error * mean_of_parts() * mean_of_parts() && all_found(); };
-  for (; rays < least || (rays < most && (rays % 64 != 0 || !exact_enough())); rays += 16) {
+  for (; rays < effort.least || (rays < effort.most && (rays % 64 != 0 || !exact_enough())); rays += 16) {
     cast_evenly(sender, sequence, rays, sum);
     if (rays % 64 != 48) { continue; }
     for (std::uint32_t k = 0; k < sender.aimed; ++k) { cast_at_spots(sender, aiming, (rays / 64 * sender.aimed + k) * 16, sum); }
   }
   const double all = rays;
   double of_near = 0.0;
-  if (!sum.near.empty()) {
-    of_near = mend_near(sum, place, std::max(4.0 * mean_of_parts(), all * solved_light), rays, most_paths, error, key);
-  }
+  if (!sum.near.empty()) { of_near = mend_near(sum, place, std::max(4.0 * mean_of_parts(), all * solved_light), rays, effort, key); }
   const double lit = 4.0 * mean_of_parts();
   const auto few = static_cast<std::ptrdiff_t>(detail::few_rays * all);
   Indirect result{sum.light / all, (16.0 * variance_of_mean() + of_near) / (all * all), sum.nearness / all,

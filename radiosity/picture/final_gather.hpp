@@ -27,6 +27,7 @@
 #include <radiosity/geometry/photon_grid.hpp>
 #include <radiosity/hierarchy/surface.hpp>
 #include <radiosity/picture/bright_spots.hpp>
+#include <radiosity/picture/gathered_point.hpp>
 #include <radiosity/picture/lookup.hpp>
 #include <radiosity/picture/met.hpp>
 #include <radiosity/picture/near_light.hpp>
@@ -67,7 +68,7 @@ class FinalGather {
 
   // The radiosity of the solution's mesh at a place, W/m2; nothing if it has no face there.
   [[nodiscard]] std::optional<Color> solved(const Place& place) const {
-    return lookup_.at(place.object, place.surface - lookup_.surface(place.object, 0), place.point);
+    return lookup_.at({place.point, place.object, place.surface - lookup_.surface(place.object, 0)});
   }
 
   // The point of the same sheet that is seen from the eye in a slightly different direction, by a part of a pixel; nothing if the sheet
@@ -91,11 +92,12 @@ class FinalGather {
   // `most` until the standard error is at most the share `error` of the light. Light from nearby triangles too coarse for it is replaced
   // by an estimate from at most `most_paths` paths, with an additional error of about the same share of all light (near_light.hpp). `key`
   // names the point and determines the rays.
-  [[nodiscard]] Indirect indirect(const Place& place, std::uint32_t least, std::uint32_t most, double error, std::uint64_t key,
-                                  std::uint32_t most_paths = 256) const;
+  [[nodiscard]] Indirect indirect(const Place& place, const GatherRays& effort, std::uint64_t key) const;
 
  private:
-  [[nodiscard]] Met met(const raycast::Hit& hit, const raycast::Segment& ray) const { return radiosity::met(objects(), direct_, hit, ray); }
+  [[nodiscard]] raycast::ScenePoint met(const raycast::Hit& hit, const raycast::Segment& ray) const {
+    return radiosity::met(objects(), direct_, hit, ray);
+  }
 
   // The origin of a point's rays, and how many are aimed.
   struct Sender {
@@ -125,14 +127,14 @@ class FinalGather {
     double aimed = 0.0;
     double coarse_within = 0.0;  // seen from nearer than this, the light may be wrong
   };
-  [[nodiscard]] Arriving arriving(const Sender& sender, const Met& found) const;
+  [[nodiscard]] Arriving arriving(const Sender& sender, const raycast::ScenePoint& found) const;
   // Cast sixteen rays, beginning with number `first` of the sequence.
   void cast_evenly(const Sender& sender, const Sobol4& sequence, std::uint32_t first, Sum& sum) const;
   // Ignores near hits, which are left to uniform rays (mend_near).
   void cast_at_spots(const Sender& sender, const Sobol4& sequence, std::uint32_t first, Sum& sum) const;
   // Replaces the light of near hits by a better estimate where it matters. `all`: light known to arrive, sum of channels over `rays`
   // rays. Returns the variance that the estimate adds.
-  [[nodiscard]] double mend_near(Sum& sum, const Place& place, double all, std::uint32_t rays, double most_paths, double error,
+  [[nodiscard]] double mend_near(Sum& sum, const Place& place, double all, std::uint32_t rays, const GatherRays& effort,
                                  std::uint64_t key) const;
   // Photons of the lamps, if there are several; their sources are indices of the direct light's lamps.
   [[nodiscard]] PhotonGrid send_lamp_photons(const std::vector<Surface>& boundaries, std::vector<Color> emission) const;

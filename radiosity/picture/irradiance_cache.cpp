@@ -74,7 +74,7 @@ HALFLIGHT_INLINE GatheredPoint IrradianceCache::gather(const Wanted& wanted) con
   const glm::dvec3& p = place.point.position;
   std::uint64_t key = place.surface;
   for (int k = 0; k < 3; ++k) { key = scramble(key ^ std::bit_cast<std::uint64_t>(p[k])); }
-  const auto found = light_->indirect(place, gather_rays.least, gather_rays.most, gather_rays.error, key);
+  const auto found = light_->indirect(place, gather_rays, key);
   GatheredPoint point;
   point.position = p;
   point.normal = place.point.normal;

@@ -156,9 +156,8 @@ HALFLIGHT_INLINE Color Lookup::blend(const Triangle& triangle, const glm::dvec3&
   return sum;
 }
 
-HALFLIGHT_INLINE std::optional<Lookup::Found> Lookup::find(std::uint32_t object, std::uint32_t sheet,
-                                                           const raycast::SurfacePoint& place) const {
-  const Sheet& on = sheets_[first_sheet_[object] + sheet];
+HALFLIGHT_INLINE std::optional<Lookup::Found> Lookup::find(const raycast::ScenePoint& place) const {
+  const Sheet& on = sheets_[surface(place.object, place.sheet)];
   const glm::dvec3& point = place.position;
   if (const auto held = on.plane.find(point)) {
     const Triangle& triangle = on.triangles[held->triangle];
@@ -216,7 +215,7 @@ HALFLIGHT_INLINE std::array<std::optional<Lookup::Seen>, 16> Lookup::seen16(cons
     rays.set(i, {(eye - frame_.centre) * frame_.scale, directions[i]}, raycast::no_object, raycast::no_object);
   }
   pass_through(objects_, rays, [&](unsigned i, const raycast::Hit& hit, const raycast::Segment& ray, int) -> std::optional<glm::dvec3> {
-    const raycast::SurfacePoint place = objects_.object(hit.object).project(hit.sheet, ray.at(hit.t));
+    const raycast::ScenePoint place = objects_.point(hit, ray);
     const std::optional<Color> color = shade(hit, place);
     if (!color) { return place.position; }
     result[i] = Seen{first_sheet_[hit.object] + hit.sheet, *color};

@@ -44,12 +44,12 @@ class Lookup {
   // The radiosity at a point of a sheet, in coordinates of the frame. Nothing if the sheet is buried and has no mesh. Cost: one descent
   // of a tree, or a few steps in a grid.
   [[nodiscard]] std::optional<Color> at(std::uint32_t object, std::uint32_t sheet, const glm::dvec3& point) const {
-    return at(object, sheet, {point, objects_.object(object).project(sheet, point).normal});
+    return at({{point, objects_.object(object).project(sheet, point).normal}, object, sheet});
   }
 
-  // At a place on the sheet whose normal is known.
-  [[nodiscard]] std::optional<Color> at(std::uint32_t object, std::uint32_t sheet, const raycast::SurfacePoint& place) const {
-    const std::optional<Found> found = find(object, sheet, place);
+  // At a place whose normal is known.
+  [[nodiscard]] std::optional<Color> at(const raycast::ScenePoint& place) const {
+    const std::optional<Found> found = find(place);
     return found ? std::optional(found->radiosity) : std::nullopt;
   }
 
@@ -59,7 +59,7 @@ class Lookup {
     bool within = false;         // does it correspond to the place? Otherwise it is only the nearest one
     double coarse_within = 0.0;  // seen from nearer than this, the triangle is too wide to represent its light; 0: never
   };
-  [[nodiscard]] std::optional<Found> find(std::uint32_t object, std::uint32_t sheet, const raycast::SurfacePoint& place) const;
+  [[nodiscard]] std::optional<Found> find(const raycast::ScenePoint& place) const;
 
   // The triangles of an input surface, in the frame.
   [[nodiscard]] std::size_t triangle_count(std::uint32_t surface) const { return sheets_[surface].triangles.size(); }
@@ -103,9 +103,9 @@ class Lookup {
   };
 
   // The radiosity at a hit; nothing at a back face, or if another object covers the place.
-  [[nodiscard]] std::optional<Color> shade(const raycast::Hit& hit, const raycast::SurfacePoint& place) const {
-    if (!hit.front || objects_.covered(place.position, place.normal, hit.object)) { return std::nullopt; }
-    return at(hit.object, hit.sheet, place);
+  [[nodiscard]] std::optional<Color> shade(const raycast::Hit& hit, const raycast::ScenePoint& place) const {
+    if (!hit.front || objects_.covered(place)) { return std::nullopt; }
+    return at(place);
   }
   [[nodiscard]] ChordTriangle chord(const Triangle& triangle) const;
   [[nodiscard]] raycast::Box region(const Triangle& triangle, const raycast::PlacedObject& object, std::uint32_t sheet) const;

@@ -18,6 +18,7 @@
 #include <radiosity/picture/final_gather.hpp>
 #include <radiosity/picture/lookup.hpp>
 #include <radiosity/picture/viewpoint.hpp>
+#include <radiosity/refinement/discrete_scene.hpp>
 #include <radiosity/result/error_estimate.hpp>
 #include <radiosity/result/mesh.hpp>
 #include <radiosity/scene/batches.hpp>
@@ -83,19 +84,19 @@ HALFLIGHT_INLINE ReflectingTriangles::ReflectingTriangles(const FinalGather& lig
 
 }  // namespace detail
 
-HALFLIGHT_INLINE MeshErrorMeter::MeshErrorMeter(const Scene& scene, const FinalGather& light, const Mesh& mesh, std::uint64_t points,
-                                                std::uint64_t seed, unsigned threads, const Control& control)
+HALFLIGHT_INLINE MeshErrorMeter::MeshErrorMeter(const DiscreteScene& scene, const FinalGather& light, const Mesh& mesh,
+                                                std::uint64_t points)
     : scene_{&scene}, light_{&light} {
-  const std::vector<InputSurface> inputs = surfaces(scene);
+  const Control& control = scene.control;
   const detail::ReflectingTriangles from{light, mesh, control.viewpoint};
   if (!(from.all_area > 0.0)) { return; }
   std::vector<Sample> samples(points);
   const auto measure = [&](std::size_t i) {
-    Random random{seed, i, 0x6d657368ull};
+    Random random{scene.seed, i, 0x6d657368ull};
     const auto& t = drawn(from.triangles, (static_cast<double>(i) + random.uniform()) / static_cast<double>(points));
     const double u = random.uniform();
     const glm::dvec3 chord = triangle_point(triangle_weights(u, random.uniform()), t.a, t.b, t.c);
-    const InputSurface& input = inputs[t.surface];
+    const InputSurface& input = scene.inputs[t.surface];
     Sample& sample = samples[i];
     sample.place = {light.objects().object(input.object).project(input.sheet, chord), input.object, t.surface};
     if (light.objects().covered(sample.place.point.position, sample.place.point.normal, input.object)) { return; }
@@ -109,12 +110,12 @@ HALFLIGHT_INLINE MeshErrorMeter::MeshErrorMeter(const Scene& scene, const FinalG
     const Color direct = region.irradiance(sample.place.point.position, sample.place.point.normal);
     for (std::uint64_t half = 0; half < 2; ++half) {
       constexpr std::uint32_t rays = 512;  // of each half; enough that their noise is smaller than that of the choice of points
-      const auto indirect = light.indirect(sample.place, rays, rays, 0.0, random.bits());
+      const auto indirect = light.indirect(sample.place, {rays, rays, 0.0}, random.bits());
       sample.light[half] = material.emission + material.reflectance * (direct + indirect.irradiance);
     }
   };
   const auto report = [&](std::size_t done) { control.report("mesh audit", static_cast<double>(done) / static_cast<double>(points)); };
-  if (!parallel_in_batches(control, threads, points, {512, 4}, measure, report)) { return; }
+  if (!parallel_in_batches(control, scene.threads, points, {512, 4}, measure, report)) { return; }
   samples_ = std::move(samples);
   area_ = from.all_area;
 }
@@ -129,12 +130,12 @@ HALFLIGHT_INLINE double MeshErrorMeter::square() const {
 }
 
 HALFLIGHT_INLINE std::optional<ErrorEstimate> MeshErrorMeter::measure(const Mesh& mesh) const {
-  const Lookup lookup{*scene_, mesh, light_->frame()};
+  const Lookup lookup{scene_->input, mesh, light_->frame()};
   ErrorSums sums;
   for (const Sample& sample : samples_) {
     if (!(sample.weight > 0.0)) { continue; }
     const std::uint32_t sheet = sample.place.surface - lookup.surface(sample.place.object, 0);
-    const std::optional<Color> shown = lookup.at(sample.place.object, sheet, sample.place.point);
+    const std::optional<Color> shown = lookup.at({sample.place.point, sample.place.object, sheet});
     if (!shown) { continue; }
     const Color& emission = light_->material(sample.place.surface).emission;
     const auto& [a, b] = sample.light;

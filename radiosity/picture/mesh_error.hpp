@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <radiosity/picture/final_gather.hpp>
+#include <radiosity/refinement/discrete_scene.hpp>
 #include <radiosity/result/error_estimate.hpp>
 #include <radiosity/result/mesh.hpp>
 #include <radiosity/scene/material.hpp>
@@ -21,9 +22,9 @@ namespace radiosity {
 class MeshErrorMeter {
  public:
   // Gathers light at `points` points of the mesh (in scene coordinates), half of them distributed by area, half by the squared reflected
-  // light. `scene` and `light` must outlive this. When cancelled, there are no points.
-  MeshErrorMeter(const Scene& scene, const FinalGather& light, const Mesh& mesh, std::uint64_t points, std::uint64_t seed, unsigned threads,
-                 const Control& control);  // if control.viewpoint is set, errors are weighted by the picture
+  // light. `scene` and `light` must outlive this. When cancelled, there are no points. If scene.control.viewpoint is set, errors are
+  // weighted by the picture.
+  MeshErrorMeter(const DiscreteScene& scene, const FinalGather& light, const Mesh& mesh, std::uint64_t points);
 
   // The error of another mesh of the same surfaces. Nothing without points, or if they see no light.
   [[nodiscard]] std::optional<ErrorEstimate> measure(const Mesh& mesh) const;
@@ -36,7 +37,7 @@ class MeshErrorMeter {
     Color light[2] = {Color{0.0}, Color{0.0}};  // W/m2
     double weight = 0.0;                        // 0: buried
   };
-  const Scene* scene_;
+  const DiscreteScene* scene_;
   const FinalGather* light_;
   std::vector<Sample> samples_;
   double area_ = 0.0;  // of all triangles; or their area in the picture

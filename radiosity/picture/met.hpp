@@ -3,8 +3,6 @@
 
 // Converts a hit on a mesh that stands in for a slow object (direct_light.hpp) to the place on the true object.
 
-#include <cstdint>
-
 #include <raycast/bundle.hpp>
 #include <raycast/object.hpp>
 #include <raycast/ray.hpp>
@@ -14,13 +12,9 @@
 
 namespace radiosity {
 
-struct Met {
-  raycast::SurfacePoint point;
-  std::uint32_t object = 0, sheet = 0;
-};
-
 // `objects`: the true objects; `hit`: of `ray` with direct.objects().
-[[nodiscard]] Met met(const raycast::Scene& objects, const DirectLight& direct, const raycast::Hit& hit, const raycast::Segment& ray);
+[[nodiscard]] raycast::ScenePoint met(const raycast::Scene& objects, const DirectLight& direct, const raycast::Hit& hit,
+                                      const raycast::Segment& ray);
 
 }  // namespace radiosity
 

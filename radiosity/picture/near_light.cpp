@@ -34,7 +34,7 @@
 namespace radiosity {
 
 struct NearLight::Paths {
-  std::array<Met, paths_at_once> end;
+  std::array<raycast::ScenePoint, paths_at_once> end;
   std::array<Color, paths_at_once> carried;          // share of the light at the end that returns to the place
   std::array<Color, paths_at_once> light;            // light so far
   std::uint32_t lanes = (1u << paths_at_once) - 1u;  // paths that have not ended
@@ -131,10 +131,10 @@ HALFLIGHT_INLINE void NearLight::light_by_lamps(Paths& paths, std::span<PathNumb
   std::array<detail::ChosenLamp, paths_at_once> choices;
   paths.each([&](unsigned k) {
     const double number = std::fmod(turn + static_cast<double>(k) / paths_at_once, 1.0);
-    choices[k] = detail::LampChoice{*direct_, *lamp_photons_, paths.end[k].point}.choose(number);
+    choices[k] = detail::LampChoice{*direct_, *lamp_photons_, paths.end[k]}.choose(number);
   });
   paths.each([&](unsigned k) {
-    const auto& [at, object, sheet] = paths.end[k];
+    const raycast::ScenePoint& at = paths.end[k];
     const detail::ChosenLamp& chosen = choices[k];
     if (chosen.lamp == nullptr) { return; }
     const std::vector<LampSample>& samples = chosen.lamp->samples;
@@ -146,11 +146,11 @@ HALFLIGHT_INLINE void NearLight::light_by_lamps(Paths& paths, std::span<PathNumb
     const double ratio = detail::ray_to_chosen(chosen, at, sample.position, sample.normal);
     if (!(ratio > 0.0)) { return; }
     arriving[k] = chosen.lamp->exitance * (ratio / (1.0 + ratio));
-    const double lift = direct_->lift(object);
-    const bool curved = !(lift > 0.0) && !lookup_->objects().object(object).flat();
-    const glm::dvec3 from = lift > 0.0 ? direct_->lifted(object, at.position, at.normal) : at.position + off_surface * at.normal;
+    const double lift = direct_->lift(at.object);
+    const bool curved = !(lift > 0.0) && !lookup_->objects().object(at.object).flat();
+    const glm::dvec3 from = lift > 0.0 ? direct_->lifted(at.object, at.position, at.normal) : at.position + off_surface * at.normal;
     const glm::dvec3 to = sample.position + (sample.end.owner == raycast::no_object ? off_surface : 0.0) * sample.normal;
-    segments.set(k, {from, to - from}, curved ? object : raycast::no_object, sample.end.owner);
+    segments.set(k, {from, to - from}, curved ? at.object : raycast::no_object, sample.end.owner);
   });
   if (segments.lanes == 0) { return; }
   const std::uint32_t lit = segments.lanes & ~direct_->objects().occluded16(segments);
@@ -162,16 +162,16 @@ HALFLIGHT_INLINE void NearLight::light_by_lamps(Paths& paths, std::span<PathNumb
 HALFLIGHT_INLINE void NearLight::light_by_spots(Paths& paths, std::span<PathNumbers> numbers, const BrightSpots::From& spots,
                                                 bool last) const {
   raycast::Segments16 rays;
-  std::array<BrightSpots::Target, paths_at_once> targets;
+  std::array<raycast::ScenePoint, paths_at_once> targets;
   paths.each([&](unsigned k) {
-    const auto& [at, object, sheet] = paths.end[k];
+    const raycast::ScenePoint& at = paths.end[k];
     const double u0 = numbers[k].uniform(), u1 = numbers[k].uniform(), u2 = numbers[k].uniform();
     targets[k] = spots.choose({u0, u1, u2, 0.5});
-    const glm::dvec3 d = targets[k].point.position - at.position;
-    if (!(glm::dot(d, at.normal) > 0.0) || !(glm::dot(d, targets[k].point.normal) < 0.0)) { return; }
-    const double lift = direct_->lift(object), reach = lookup_->objects().diameter();
-    rays.set(k, {at.position + lift * at.normal, reach * glm::normalize(d)}, lift > 0.0 ? raycast::no_object : object, raycast::no_object,
-             sheet);
+    const glm::dvec3 d = targets[k].position - at.position;
+    if (!(glm::dot(d, at.normal) > 0.0) || !(glm::dot(d, targets[k].normal) < 0.0)) { return; }
+    const double lift = direct_->lift(at.object), reach = lookup_->objects().diameter();
+    rays.set(k, {at.position + lift * at.normal, reach * glm::normalize(d)}, lift > 0.0 ? raycast::no_object : at.object,
+             raycast::no_object, at.sheet);
   });
   if (rays.lanes == 0) { return; }
   const raycast::Hits16 hits = direct_->objects().closest16(rays);
@@ -179,13 +179,13 @@ HALFLIGHT_INLINE void NearLight::light_by_spots(Paths& paths, std::span<PathNumb
     const auto k = static_cast<unsigned>(std::countr_zero(rest));
     const raycast::Hit& hit = hits.hit[k];
     if (!hit.front || direct_->whole(hit.object) != targets[k].object) { continue; }
-    const raycast::SurfacePoint& at = paths.end[k].point;
+    const raycast::ScenePoint& at = paths.end[k];
     if (!BrightSpots::reached(*direct_, targets[k], at.position, met(lookup_->objects(), *direct_, hit, rays.at(k)))) { continue; }
-    const BrightSpots::Target& next = targets[k];
-    const std::optional<Lookup::Found> found = lookup_->find(next.object, next.sheet, next.point);
-    if (!found || (!last && glm::length(next.point.position - at.position) < found->coarse_within)) { continue; }
+    const raycast::ScenePoint& next = targets[k];
+    const std::optional<Lookup::Found> found = lookup_->find(next);
+    if (!found || (!last && glm::length(next.position - at.position) < found->coarse_within)) { continue; }
     const std::uint32_t surface = lookup_->surface(next.object, next.sheet);
-    const double aimed = spots.aimed(surface, *found, at, next.point);
+    const double aimed = spots.aimed(surface, *found, at, next);
     const Color lamp = direct_->is_lamp(surface) ? (*materials_)[surface].emission : Color{0.0};
     if (aimed > 0.0) { paths.light[k] += paths.carried[k] * (found->radiosity - lamp) / (1.0 + aimed); }
   }
@@ -195,10 +195,11 @@ HALFLIGHT_INLINE void NearLight::go_on(Paths& paths, std::span<PathNumbers> numb
   const double reach = lookup_->objects().diameter();
   raycast::Segments16 rays;
   paths.each([&](unsigned k) {
-    const auto& [at, object, sheet] = paths.end[k];
-    const double lift = direct_->lift(object), u = numbers[k].uniform();
+    const raycast::ScenePoint& at = paths.end[k];
+    const double lift = direct_->lift(at.object), u = numbers[k].uniform();
     const glm::dvec3 direction = cosine_direction(at.normal, u, numbers[k].uniform());
-    rays.set(k, {at.position + lift * at.normal, reach * direction}, lift > 0.0 ? raycast::no_object : object, raycast::no_object, sheet);
+    rays.set(k, {at.position + lift * at.normal, reach * direction}, lift > 0.0 ? raycast::no_object : at.object, raycast::no_object,
+             at.sheet);
   });
   const raycast::Hits16 hits = direct_->objects().closest16(rays);
   paths.lanes &= hits.met;
@@ -209,16 +210,16 @@ HALFLIGHT_INLINE void NearLight::go_on(Paths& paths, std::span<PathNumbers> numb
       paths.lanes &= ~own;
       return;
     }
-    const Met next = met(lookup_->objects(), *direct_, hit, rays.at(k));
+    const raycast::ScenePoint next = met(lookup_->objects(), *direct_, hit, rays.at(k));
     const std::uint32_t surface = lookup_->surface(next.object, next.sheet);
     const Material& material = (*materials_)[surface];
     const DirectLight::Lamp* met_lamp = direct_->lamp_of(surface);
     const Color lamp = met_lamp != nullptr ? material.emission : Color{0.0};
     if (met_lamp != nullptr) {
-      const detail::LampChoice choice{*direct_, *lamp_photons_, paths.end[k].point};
-      paths.light[k] += paths.carried[k] * lamp * detail::share_of_ray(choice, *met_lamp, paths.end[k].point, next.point);
+      const detail::LampChoice choice{*direct_, *lamp_photons_, paths.end[k]};
+      paths.light[k] += paths.carried[k] * lamp * detail::share_of_ray(choice, *met_lamp, paths.end[k], next);
     }
-    const std::optional<Lookup::Found> found = lookup_->find(next.object, next.sheet, next.point);
+    const std::optional<Lookup::Found> found = lookup_->find(next);
     if (found && !last && hit.t * reach < found->coarse_within) {
       paths.light[k] += paths.carried[k] * (material.emission - lamp);
       paths.carried[k] *= material.reflectance;
@@ -226,7 +227,7 @@ HALFLIGHT_INLINE void NearLight::go_on(Paths& paths, std::span<PathNumbers> numb
       return;
     }
     if (found) {
-      const double aimed = spots != nullptr ? spots->aimed(surface, *found, paths.end[k].point, next.point) : 0.0;
+      const double aimed = spots != nullptr ? spots->aimed(surface, *found, paths.end[k], next) : 0.0;
       paths.light[k] += paths.carried[k] * (found->radiosity - lamp) / (1.0 + aimed);
     }
     paths.lanes &= ~own;
@@ -259,7 +260,7 @@ HALFLIGHT_INLINE NearLight::Sum NearLight::light(std::span<const Seen> seen, std
       const double wanted = (k + offset) / paths_at_once;
       while (until <= wanted && place + 1 < seen.size()) { until += probability(seen[++place]); }
       chosen[k] = probability(seen[place]);
-      const Met& at = seen[place].at;
+      const raycast::ScenePoint& at = seen[place].at;
       const std::uint32_t surface = lookup_->surface(at.object, at.sheet);
       next.end[k] = at;
       next.carried[k] = (*materials_)[surface].reflectance;

@@ -40,7 +40,7 @@ class NearLight {
 
   // A place seen from so near that the mesh is too coarse for its light, and this light without that of lamps.
   struct Seen {
-    Met at;
+    raycast::ScenePoint at;
     Color light{0.0};
   };
   struct Sum {

@@ -230,16 +230,21 @@ template <class Exposed>
   });
 }
 
-// Adds a face whose half-edges have colours. `position`: by vertex index, the index of its position in the mesh.
+// Is the face seen, at least in part?
 template <class Exposed>
-void add_face(const std::vector<Surface>& surfaces, const Surface& surface, brep::FaceId f, const std::vector<std::uint32_t>& position,
-              const LeafLight& light, const Exposed& exposed, Mesh& mesh) {
+[[nodiscard]] bool is_seen(const std::vector<Surface>& surfaces, const Surface& surface, brep::FaceId f, const LeafLight& light,
+                           const Exposed& exposed) {
+  if (!exposed(f) && (!touches_exposed(surface.brep, f, exposed) || lies_under(surface, f, surfaces))) { return false; }
+  // T-vertex elimination may cut off a part of a leaf that lies under a later object, which covers it.
+  const std::uint32_t node = surface.brep.data(f).node;
+  return !light.exposure.partly_buried[node] || !lies_under(surface, f, surfaces, light.hierarchy[node].object + 1);
+}
+
+// Adds a face whose half-edges have colours. `position`: by vertex index, the index of its position in the mesh.
+HALFLIGHT_INLINE void add_face(const Surface& surface, brep::FaceId f, const std::vector<std::uint32_t>& position, const LeafLight& light,
+                               bool buried, Mesh& mesh) {
   const SurfaceBRep& brep = surface.brep;
   const std::uint32_t node = brep.data(f).node;
-  const bool buried = !exposed(f);
-  if (buried && (!touches_exposed(brep, f, exposed) || lies_under(surface, f, surfaces))) { return; }
-  // T-vertex elimination may cut off a part of a leaf that lies under a later object, which covers it.
-  if (light.exposure.partly_buried[node] && lies_under(surface, f, surfaces, light.hierarchy[node].object + 1)) { return; }
   // At most four corners: T-vertex elimination leaves no others, and the rest would be cut as a fan. Separate polygons keep their
   // T-vertices, and a leaf is shaded from its own corners.
   std::vector<brep::HalfedgeId> loop;
@@ -294,8 +299,9 @@ HALFLIGHT_INLINE Mesh read_mesh(std::vector<Surface>& surfaces, const LeafLight&
     }
     for (const brep::FaceId f : brep::faces(brep)) {
       if (brep.data(f).node == no_node) { continue; }
-      detail::add_face(
-          surfaces, surfaces[o], f, position, light, [&](brep::FaceId g) { return exposed(o, g); }, mesh);
+      const auto exposed_here = [&](brep::FaceId g) { return exposed(o, g); };
+      if (!detail::is_seen(surfaces, surfaces[o], f, light, exposed_here)) { continue; }
+      detail::add_face(surfaces[o], f, position, light, !exposed(o, f), mesh);
     }
   }
   return mesh;

@@ -32,9 +32,7 @@ HALFLIGHT_INLINE void measure_errors(Run& run) {
   const Control& control = run.scene.control;
   const Solution& solution = run.solution;
   Audit& audit = run.solution.audit;
-  SurfaceErrorMeter meter{run.scene.input,    run.scene.objects, *run.tracer,
-                          run.scene.exposure, solution.shown(),  run.direct ? &*run.direct : nullptr,
-                          options.seed};
+  SurfaceErrorMeter meter{run.scene, *run.tracer, solution.shown(), run.direct ? &*run.direct : nullptr, options.seed};
   audit.ray_work = run.scene.objects.ray_work() + run.scene.objects.walk_work();
   const AuditGoal to_know = goal_to_know(audit, options.audit_points);
   AuditGoal goal = options.error ? goal_of_round(audit, options.audit_points, *options.error) : to_know;

@@ -55,13 +55,14 @@ namespace detail {
   return {all, slope * colours.standard_error, std::hypot(colours.low, outlines), std::hypot(colours.high, outlines)};
 }
 
-// Splits until the error is at most `wanted` or nothing can be split any more; returns false when cancelled. The error at the faces' own
-// test points decides how far to split; the independent error of the meter, which includes what these points have missed, decides when to
-// stop.
-HALFLIGHT_INLINE bool refine_to(double wanted, std::uint64_t most, const MeshErrorMeter& meter, MeshRefiner& refiner,
-                                MeshRefinement& refinement, std::optional<Mesh>& refined, const Frame& frame) {
+// Splits until the error is at most refinement.wanted or nothing can be split any more; returns false when cancelled. The error at the
+// faces' own test points decides how far to split; the independent error of the meter, which includes what these points have missed,
+// decides when to stop.
+HALFLIGHT_INLINE bool refine_to_wanted(const Run& run, const MeshErrorMeter& meter, MeshRefiner& refiner, MeshRefinement& refinement,
+                                       std::optional<Mesh>& refined) {
+  const std::uint64_t most = most_mesh_faces(run);
   if (!refiner.gather()) { return false; }
-  double goal = 0.9 * wanted;
+  double goal = 0.9 * refinement.wanted;
   double last = std::numeric_limits<double>::infinity();  // measured error of the previous round
   int rounds_without_gain = 0;
   for (;;) {
@@ -73,14 +74,14 @@ HALFLIGHT_INLINE bool refine_to(double wanted, std::uint64_t most, const MeshErr
     }
     Mesh mesh = refiner.mesh();
     Mesh in_scene = mesh;
-    to_scene(in_scene, frame);
+    to_scene(in_scene, run.scene.frame);
     const std::optional<ErrorEstimate> colours = meter.measure(in_scene);
     if (!colours) { return true; }
     refinement.outlines_after = outline_error(refiner, meter);
     refinement.after = with_outlines(*colours, refinement.outlines_after);
     refinement.faces_after = mesh.faces.size();
     refined = std::move(mesh);
-    refinement.met = refinement.after.relative_l2 <= wanted;
+    refinement.met = refinement.after.relative_l2 <= refinement.wanted;
     // The remaining error is not between the corners, or is in few places that the faces' test points have missed; a finer mesh may hit
     // those.
     rounds_without_gain = refinement.after.relative_l2 > 0.95 * last ? rounds_without_gain + 1 : 0;
@@ -102,7 +103,7 @@ HALFLIGHT_INLINE std::optional<Failure> refine_mesh(detail::Run& run) {
   detail::to_scene(shown, scene.frame);
   const FinalGather light{scene.input, shown, scene.frame};
   constexpr std::uint64_t points = 2000;  // their choice makes the estimate uncertain by a tenth of itself if few shadow edges have errors
-  const MeshErrorMeter meter{scene.input, light, shown, points, scene.seed, scene.threads, scene.control};
+  const MeshErrorMeter meter{scene, light, shown, points};
   if (const std::optional<ErrorEstimate> colours = meter.measure(shown)) {
     Meshing meshing = scene.meshing;
     if (scene.light_meshing) {
@@ -114,8 +115,7 @@ HALFLIGHT_INLINE std::optional<Failure> refine_mesh(detail::Run& run) {
     const ErrorEstimate before = detail::with_outlines(*colours, outlines);
     MeshRefinement refinement{*options.mesh_error, before, before, outlines, outlines, shown.faces.size(), shown.faces.size(), false};
     refinement.met = before.relative_l2 <= refinement.wanted;
-    if (!refinement.met && !detail::refine_to(refinement.wanted, detail::most_mesh_faces(run), meter, refiner, refinement,
-                                              run.solution.refined, scene.frame)) {
+    if (!refinement.met && !detail::refine_to_wanted(run, meter, refiner, refinement, run.solution.refined)) {
       run.solution.refined.reset();
     }
     if (refinement.met || run.solution.refined) { run.solution.audit.mesh = refinement; }

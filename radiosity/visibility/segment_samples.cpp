@@ -29,9 +29,9 @@ HALFLIGHT_INLINE SamplePieces::SamplePieces(const Patch& patch) : origin{patch.c
   split = patch.contour.size() == 3 ? std::numeric_limits<double>::infinity() : area[0];
 }
 
-HALFLIGHT_INLINE void draw_segments(const SamplePieces& p, const SamplePieces& q, std::uint64_t state, std::uint32_t shift,
-                                    double softening, SampledSegments& to, [[maybe_unused]] raycast::Isa set) {
-  HALFLIGHT_BY_SET(set, draw_segments(p, q, state, shift, softening, to));
+HALFLIGHT_INLINE void draw_segments(const SampledPair& between, std::uint64_t state, std::uint32_t shift, SampledSegments& to,
+                                    [[maybe_unused]] raycast::Isa set) {
+  HALFLIGHT_BY_SET(set, draw_segments(between, state, shift, to));
 }
 
 }  // namespace radiosity::detail

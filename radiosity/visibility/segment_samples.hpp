@@ -31,6 +31,12 @@ struct SamplePieces {
   std::array<double, 2> area{};
 };
 
+// Both ends of the segments. `softening` limits the weight of points that nearly touch.
+struct SampledPair {
+  SamplePieces p, q;
+  double softening = 0.0;
+};
+
 struct SampledSegments {
   raycast::Segments16 segments;     // only origins and directions are set
   std::array<double, 16> weight{};  // cos cos / r^2, softened; 0 below a horizon
@@ -39,8 +45,7 @@ struct SampledSegments {
 // Uses the numbers of a Random with this `state`, which must be advanced by 64 afterwards. Segment i runs from cell i of p to cell
 // opposite_cell(i, shift) of q.
 inline constexpr std::uint64_t numbers_per_round = 64;
-void draw_segments(const SamplePieces& p, const SamplePieces& q, std::uint64_t state, std::uint32_t shift, double softening,
-                   SampledSegments& to, raycast::Isa set);
+void draw_segments(const SampledPair& between, std::uint64_t state, std::uint32_t shift, SampledSegments& to, raycast::Isa set);
 
 [[nodiscard]] constexpr std::uint32_t opposite_cell(std::uint32_t cell, std::uint32_t shift) { return (cell * 5u ^ shift) & 15u; }
 

@@ -138,8 +138,9 @@ class CellCounts {
 }
 
 // Do the two corners that are highest above the other patch see each other? Used if no sample lies above both horizons.
-[[nodiscard]] HALFLIGHT_INLINE bool highest_corners_clear(const SceneView& scene, const raycast::OccluderList& list, const PatchEnd& p,
-                                                          const PatchEnd& q) {
+[[nodiscard]] HALFLIGHT_INLINE bool highest_corners_clear(const SceneView& scene, const raycast::OccluderList& list,
+                                                          const PatchPair& pair) {
+  const auto& [p, q] = pair;
   const glm::dvec3 x = highest_corner(*p.patch, *q.patch);
   raycast::Segments16 segment;
   segment.set(0, {x, highest_corner(*q.patch, *p.patch) - x}, p.object, q.object, p.sheet, q.sheet);
@@ -150,20 +151,18 @@ class CellCounts {
 // Draws the segments of a round.
 class Rounds {
  public:
-  Rounds(const PatchEnd& p, const PatchEnd& q) : p_{p}, q_{q}, softening_{0.01 * std::min(p.patch->area, q.patch->area)} {
+  explicit Rounds(const PatchPair& pair) : pair_{pair}, softening_{0.01 * std::min(pair.p.patch->area, pair.q.patch->area)} {
+    const auto& [p, q] = pair;
     for (std::uint32_t i = 0; i < segments_per_round; ++i) {
       drawn_.segments.source[i] = p.object, drawn_.segments.target[i] = q.object;
       drawn_.segments.source_sheet[i] = p.sheet, drawn_.segments.target_sheet[i] = q.sheet;
     }
-    if (whole(p) && whole(q)) { pieces_.emplace(detail::SamplePieces{*p.patch}, detail::SamplePieces{*q.patch}); }
+    if (whole(p) && whole(q)) { pieces_ = detail::SampledPair{detail::SamplePieces{*p.patch}, detail::SamplePieces{*q.patch}, softening_}; }
   }
 
   [[nodiscard]] const detail::SampledSegments& draw(Random& random, std::uint32_t shift) {
     raycast::Segments16& segments = drawn_.segments;
-    if (pieces_) {
-      detail::draw_segments(pieces_->first, pieces_->second, random.pass(detail::numbers_per_round), shift, softening_, drawn_,
-                            detail::instruction_set());
-    }
+    if (pieces_) { detail::draw_segments(*pieces_, random.pass(detail::numbers_per_round), shift, drawn_, detail::instruction_set()); }
     std::uint32_t lanes = 0;  // lanes that may carry light
     for (std::uint32_t i = 0; i < segments_per_round; ++i) {
       if (!pieces_) { draw(random, i, detail::opposite_cell(i, shift)); }
@@ -177,17 +176,18 @@ class Rounds {
   [[nodiscard]] static bool whole(const PatchEnd& end) { return end.exposed == nullptr && detail::SamplePieces::fits(*end.patch); }
 
   void draw(Random& random, std::uint32_t i, std::uint32_t opposite) {
-    const glm::dvec3 x = draw_exposed(p_, i, random);
-    const glm::dvec3 y = draw_exposed(q_, opposite, random);
+    const auto& [p, q] = pair_;
+    const glm::dvec3 x = draw_exposed(p, i, random);
+    const glm::dvec3 y = draw_exposed(q, opposite, random);
     const glm::dvec3 d = y - x;
     const double r2 = glm::dot(d, d) + softening_;
-    drawn_.weight[i] = std::max(0.0, glm::dot(p_.patch->normal, d)) * std::max(0.0, -glm::dot(q_.patch->normal, d)) / (r2 * r2);
-    drawn_.segments.set(i, {x, d}, p_.object, q_.object, p_.sheet, q_.sheet);
+    drawn_.weight[i] = std::max(0.0, glm::dot(p.patch->normal, d)) * std::max(0.0, -glm::dot(q.patch->normal, d)) / (r2 * r2);
+    drawn_.segments.set(i, {x, d}, p.object, q.object, p.sheet, q.sheet);
   }
 
-  PatchEnd p_, q_;
+  PatchPair pair_;
   double softening_;  // limits the weight of points that nearly touch
-  std::optional<std::pair<detail::SamplePieces, detail::SamplePieces>> pieces_;
+  std::optional<detail::SampledPair> pieces_;
   detail::SampledSegments drawn_;
 };
 
@@ -212,8 +212,8 @@ HALFLIGHT_INLINE void set_spreads(std::span<const RoundSeen> rounds, VisibilityE
   estimate.spread_q = cells_q.spread();
 }
 
-HALFLIGHT_INLINE VisibilityEstimate visibility(const SceneView& scene, const raycast::OccluderList& list, const PatchEnd& p,
-                                               const PatchEnd& q, std::uint32_t rounds, Random random, std::vector<CastSegment>* seen) {
+HALFLIGHT_INLINE VisibilityEstimate visibility(const SceneView& scene, const raycast::OccluderList& list, const PatchPair& pair,
+                                               std::uint32_t rounds, Random random, std::vector<CastSegment>* seen) {
   VisibilityEstimate estimate;
   estimate.proven = list.clear();
   if (scene.plan.shortcuts && estimate.proven) {
@@ -226,7 +226,7 @@ HALFLIGHT_INLINE VisibilityEstimate visibility(const SceneView& scene, const ray
   std::uint32_t blocked = 0;
   brep::SmallList<RoundSeen, 16> rounds_seen;
   std::uint32_t last_occluder = raycast::no_shape;
-  Rounds source{p, q};
+  Rounds source{pair};
   for (std::uint32_t round = 0; round < rounds; ++round) {
     const auto shift = static_cast<std::uint32_t>(random.bits() & 15u);
     const auto& [segments, weights] = source.draw(random, shift);
@@ -250,7 +250,7 @@ HALFLIGHT_INLINE VisibilityEstimate visibility(const SceneView& scene, const ray
     estimate.fraction = arrived / total;
     return estimate;
   }
-  estimate.fraction = highest_corners_clear(scene, known, p, q) ? 1.0 : 0.0;
+  estimate.fraction = highest_corners_clear(scene, known, pair) ? 1.0 : 0.0;
   ++estimate.rays.cast;
   return estimate;
 }

@@ -67,6 +67,10 @@ struct PatchEnd {
   std::uint32_t sheet = raycast::unknown_sheet;
 };
 
+struct PatchPair {
+  PatchEnd p, q;
+};
+
 // A point of the exposed part of the end, in cell 0...15 of a 4 x 4 grid if that has exposed points.
 [[nodiscard]] glm::dvec3 draw_exposed(const PatchEnd& end, std::uint32_t cell, Random& random);
 
@@ -95,7 +99,7 @@ struct CastSegment {
 // If all segments of the first round of 16 agree, they decide; otherwise `rounds` rounds are averaged. So a patch with a hidden share p
 // passes as wholly visible with probability (1 - p)^16, and the fraction is too large by p (1 - p)^16 <= 0.022 on average. The numbers
 // drawn depend on `random` alone. `list`: that of the pair. `seen`, if given, receives the segments.
-[[nodiscard]] VisibilityEstimate visibility(const SceneView& scene, const raycast::OccluderList& list, const PatchEnd& p, const PatchEnd& q,
+[[nodiscard]] VisibilityEstimate visibility(const SceneView& scene, const raycast::OccluderList& list, const PatchPair& pair,
                                             std::uint32_t rounds, Random random, std::vector<CastSegment>* seen = nullptr);
 
 }  // namespace radiosity

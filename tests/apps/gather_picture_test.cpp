@@ -32,10 +32,7 @@ struct SolvedFile {
 SolvedFile solve(const std::string& text, double epsilon = 0.02) {
   apps::SceneResult parsed = apps::parse_scene(text);
   REQUIRE(parsed.file);
-  radiosity::Options options;
-  options.epsilon = epsilon;
-  options.min_area = 1e-4;
-  options.audit_points = 0;
+  const radiosity::Options options{.epsilon = epsilon, .min_area = 1e-4, .audit_points = 0};
   radiosity::Outcome outcome = radiosity::solve(parsed.file->scene, options);
   REQUIRE(outcome.solution);
   return {std::move(*parsed.file), std::move(*outcome.solution)};
@@ -54,10 +51,7 @@ radiosity::Picture gathered(const SolvedFile& solved, const radiosity::View& vie
 }  // namespace
 
 TEST_CASE("a point is seen in the direction of its place in the picture") {
-  radiosity::Camera camera;
-  camera.eye = {1.0, -2.0, 0.5};
-  camera.forward = {0.3, 1.0, -0.2};
-  camera.field_of_view = 70.0;
+  const radiosity::Camera camera{.eye = {1.0, -2.0, 0.5}, .forward = {0.3, 1.0, -0.2}, .field_of_view = 70.0};
   const radiosity::View view = radiosity::make_view(camera, {320, 200});
   for (const double x : {0.0, 100.25, 320.0}) {
     for (const double y : {0.0, 33.0, 200.0}) {
@@ -91,11 +85,7 @@ TEST_CASE("direct light does not depend on the mesh: under a square lamp it is L
       "polygon floor material floor {\n vertex -1 -1 0\n vertex 1 -1 0\n vertex 1 1 0\n vertex -1 1 0\n}\n"
       "polygon lamp material lamp {\n vertex -0.3 -0.3 1\n vertex -0.3 0.3 1\n vertex 0.3 0.3 1\n vertex 0.3 -0.3 1\n}\n",
       1.0);
-  radiosity::Camera camera;
-  camera.eye = {0.0, 0.0, 0.9};
-  camera.forward = {0.0, 0.0, -1.0};
-  camera.up = {0.0, 1.0, 0.0};
-  camera.field_of_view = 30.0;
+  const radiosity::Camera camera{.eye = {0.0, 0.0, 0.9}, .forward = {0.0, 0.0, -1.0}, .up = {0.0, 1.0, 0.0}, .field_of_view = 30.0};
   const radiosity::View view = radiosity::make_view(camera, {101, 101});
   const double x = 0.3, q = x / std::sqrt(1.0 + x * x);
   const double factor = 4.0 / pi * q * std::atan(q);
@@ -116,7 +106,7 @@ TEST_CASE("indirect light is gathered until its standard error is what was asked
     for (const double error : {0.1, 0.03}) {
       double sum = 0.0, squares = 0.0;
       for (std::uint64_t key = 0; key < 64; ++key) {
-        const double value = light.indirect(*place, 64, 1 << 16, error, key).irradiance.x;
+        const double value = light.indirect(*place, {64, 1 << 16, error}, key).irradiance.x;
         sum += value / 64;
         squares += value * value / 64;
       }
@@ -147,10 +137,10 @@ TEST_CASE("close up, the silhouette of a sphere is smooth: within half a pixel o
       const double angle = 2.0 * pi * turn / 7.0;
       const glm::dvec3 u = glm::normalize(glm::cross(axis, glm::dvec3{0.0, 0.0, 1.0}));
       const glm::dvec3 v = glm::cross(axis, u);
-      radiosity::Camera camera;
-      camera.eye = eye;
-      camera.forward = std::cos(half_angle) * axis + std::sin(half_angle) * (std::cos(angle) * u + std::sin(angle) * v);
-      camera.field_of_view = fov;
+      const radiosity::Camera camera{
+          .eye = eye,
+          .forward = std::cos(half_angle) * axis + std::sin(half_angle) * (std::cos(angle) * u + std::sin(angle) * v),
+          .field_of_view = fov};
       const radiosity::View view = radiosity::make_view(camera, {side, side});
       const double pixel = 2.0 * view.half_width / side;  // an angle, in the middle of so narrow a view
       const auto worst = [&](const radiosity::Picture& picture) {
@@ -182,10 +172,7 @@ TEST_CASE("the outline is as soft as its pixels are covered") {
   const SolvedFile solved = solve(
       "material lamp reflectance 0 emission 1\n"
       "sphere ball center 0 0 0 radius 1 material lamp\n");
-  radiosity::Camera camera;
-  camera.eye = {0.0, -10.0, 0.0};
-  camera.forward = {0.0, 1.0, 0.0};
-  camera.field_of_view = 20.0;
+  const radiosity::Camera camera{.eye = {0.0, -10.0, 0.0}, .forward = {0.0, 1.0, 0.0}, .field_of_view = 20.0};
   const radiosity::View view = radiosity::make_view(camera, {40, 40});
   const radiosity::Picture picture = gathered(solved, view, pi);  // shows 1 as 1
   // The picture of the sphere is a disk of radius tan(asin(1/10)) on the plane at distance 1. Coverage by brute force.

@@ -36,8 +36,7 @@ struct CornellBox {
     apps::SceneResult parsed = apps::parse_scene(std::string{std::istreambuf_iterator<char>(stream), {}});
     REQUIRE(parsed.file);
     file = std::move(*parsed.file);
-    radiosity::Options options;
-    options.audit_points = 0;
+    const radiosity::Options options{.audit_points = 0};
     radiosity::Outcome outcome = radiosity::solve(file.scene, options);
     REQUIRE(outcome.solution);
     solution = std::move(*outcome.solution);
@@ -67,7 +66,6 @@ TEST_CASE("a dark corner: gathered light is that of path tracing, up to the edge
   const glm::dvec3 right{0.130, 0.0, 0.065}, left{0.290, 0.0, 0.114};
   const glm::dvec3 normal = glm::normalize(glm::cross({0.0, 1.0, 0.0}, left - right));
   radiosity::Random random{seed, 1};
-  const auto& rays = radiosity::gather_rays;
   std::uint64_t cast = 0;
   for (const double height : {0.001, 0.004, 0.008, 0.012, 0.016}) {  // of the block's 0.165
     constexpr int places = 64, paths = 512;
@@ -75,9 +73,9 @@ TEST_CASE("a dark corner: gathered light is that of path tracing, up to the edge
     for (int i = 0; i < places; ++i) {
       const glm::dvec3 x = right + (0.1 + 0.5 * random.uniform()) * (left - right) + glm::dvec3{0.0, height, 0.0};
       const radiosity::FinalGather::Place place{{(x - light.frame().centre) * light.frame().scale, normal}, block, surface};
-      gathered += sum(rho * light.indirect(place, rays.least, rays.most, rays.error, random.bits()).irradiance) / places;
+      gathered += sum(rho * light.indirect(place, radiosity::gather_rays, random.bits()).irradiance) / places;
       for (int k = 0; k < paths; ++k) {
-        const auto found = tracer.radiosity(place.point.position, normal, block, front, random, cast);
+        const auto found = tracer.radiosity({{place.point.position, normal}, block, front}, random, cast);
         traced += sum(found.all - found.direct) / (places * paths);
       }
     }

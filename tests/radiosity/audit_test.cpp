@@ -15,6 +15,7 @@
 #include <radiosity/hierarchy/patch.hpp>
 #include <radiosity/hierarchy/surface.hpp>
 #include <radiosity/radiosity.hpp>
+#include <radiosity/refinement/discrete_scene.hpp>
 #include <radiosity/result/audit.hpp>
 #include <radiosity/result/error_estimate.hpp>
 #include <radiosity/result/mesh.hpp>
@@ -62,7 +63,7 @@ std::pair<double, double> traced(const Scene& scene, std::uint32_t object, std::
     while (k + 1 < patches.size() && rest > patches[k].area) { rest -= patches[k++].area; }
     const double u = random.uniform();
     const auto point = p.objects.object(object).project(sheet, radiosity::sample(patches[k], u, random.uniform()));
-    const double b = tracer.radiosity(point.position, point.normal, object, sheet, random, rays).all.x;
+    const double b = tracer.radiosity({point, object, sheet}, random, rays).all.x;
     sum += b;
     square += b * b;
   }
@@ -90,11 +91,7 @@ TEST_CASE("path tracing is unbiased: furnaces glow at 1, an emitting wall lights
 
 TEST_CASE("path tracing agrees with the solution of a room with a box and a lamp", "[accuracy]") {
   const Scene scene = scenes::room_with_box();
-  const Options options = [] {
-    Options o;
-    o.audit_points = 0;
-    return o;
-  }();
+  const Options options{.audit_points = 0};
   const auto outcome = radiosity::solve(scene, options);
   REQUIRE(outcome.solution);
   const auto [mean, error] = traced(scene, 0, 0, 100000, 9);  // wall x0
@@ -104,22 +101,19 @@ TEST_CASE("path tracing agrees with the solution of a room with a box and a lamp
 
 TEST_CASE("a solution that is 5 % too bright is found to be 5 % too bright") {
   const Scene scene = scenes::furnace_with_things(0.5);
-  const radiosity::Prepared p = prepared(scene);
-  Options options;
-  options.epsilon = 0.02;
-  options.min_area = 1e-4;
-  options.audit_points = 0;
+  radiosity::DiscreteScene p{scene, 1, 1};
+  p.take(prepared(scene));
+  const Options options{.epsilon = 0.02, .min_area = 1e-4, .audit_points = 0};
   auto outcome = radiosity::solve(scene, options);
   REQUIRE(outcome.solution);
   REQUIRE(outcome.solution->audit.closure);  // so B = 1 exactly
   radiosity::Mesh mesh = outcome.solution->mesh;
   for (auto& x : mesh.positions) { x = (x - p.frame.centre) * p.frame.scale; }
   for (auto& corner : mesh.corners) { corner.radiosity *= 1.05; }
-  radiosity::Exposure exposure;
-  exposure.partly_buried.assign(outcome.solution->hierarchy.size(), true);
-  exposure.area = outcome.solution->area;
+  p.exposure.partly_buried.assign(outcome.solution->hierarchy.size(), true);
+  p.exposure.area = outcome.solution->area;
   const radiosity::PathTracer tracer{scene, p.objects, p.surfaces};
-  radiosity::SurfaceErrorMeter meter{scene, p.objects, tracer, exposure, mesh, nullptr, 1};
+  radiosity::SurfaceErrorMeter meter{p, tracer, mesh, nullptr, 1};
   radiosity::SurfaceError measured;
   REQUIRE(meter.measure(1000, 64, 2, {}, measured));
   REQUIRE(meter.measure(1000, 64, 2, {}, measured));
@@ -213,8 +207,7 @@ TEST_CASE("a run with an accuracy target ends when it is cancelled while its aud
   radiosity::Control control;
   control.cancel = &cancel;
   control.progress = [&](std::string_view stage, double) { cancel = cancel || stage == "audit"; };
-  Options options;
-  options.error = 0.02;
+  const Options options{.error = 0.02};
   const auto outcome = radiosity::solve(scenes::two_plates(0.5), options, control);
   REQUIRE(outcome.solution);
   CHECK(outcome.solution->audit.interrupted);
@@ -243,8 +236,7 @@ TEST_CASE("plan: what cannot occlude is left out, what can is kept") {
 TEST_CASE("a plate between two plates stops all light between them") {
   Scene scene = scenes::two_plates(0.5);
   scene.objects.push_back(scenes::object("blocker", scenes::polygon({{-3, -3, 0.5}, {-3, 3, 0.5}, {3, 3, 0.5}, {3, -3, 0.5}}), 1));
-  Options options;
-  options.audit_points = 0;
+  Options options{.audit_points = 0};
   const auto outcome = radiosity::solve(scene, options);
   REQUIRE(outcome.solution);
   CHECK(outcome.solution->audit.surfaces[1].radiosity == radiosity::Color{0.0});  // the upper plate
@@ -252,8 +244,7 @@ TEST_CASE("a plate between two plates stops all light between them") {
 }
 
 TEST_CASE("ground under a box is buried: it takes no part, and the ground beside it keeps its brightness") {
-  Options options;
-  options.audit_points = 0;
+  Options options{.audit_points = 0};
   const auto outcome = radiosity::solve(scenes::room_with_box(), options);
   REQUIRE(outcome.solution);
   const Solution& solution = *outcome.solution;
@@ -269,8 +260,7 @@ TEST_CASE("ground under a box is buried: it takes no part, and the ground beside
 TEST_CASE("an error target is met, and a tighter one takes more links", "[slow]") {
   std::uint64_t links = 0;
   for (const double target : {0.1, 0.01}) {
-    Options options;
-    options.error = target;
+    const Options options{.error = target};
     const auto outcome = radiosity::solve(scenes::room_with_box(), options);
     REQUIRE(outcome.solution);
     const radiosity::Audit& audit = outcome.solution->audit;
@@ -280,9 +270,7 @@ TEST_CASE("an error target is met, and a tighter one takes more links", "[slow]"
     CHECK(audit.links > links);
     links = audit.links;
   }
-  Options blind;
-  blind.error = 0.1;
-  blind.audit_points = 0;
+  const Options blind{.error = 0.1, .audit_points = 0};
   CHECK_FALSE(radiosity::solve(scenes::room_with_box(), blind).solution);
 }
 
@@ -292,9 +280,7 @@ TEST_CASE("row sums of an open scene are those of what is exposed: leaves under 
   scene.objects = {scenes::object("plate", scenes::box({-1, -1, -0.5}, {1, 1, 0})),
                    scenes::object("box", scenes::box({-0.55, -0.55, 0}, {0.55, 0.55, 1})),
                    scenes::square("above", {0, 0, 3}, 6.0, false, 1), scenes::square("below", {0, 0, -3}, 6.0, true, 1)};
-  Options options;
-  options.audit_points = 0;
-  options.min_area = 7.5e-6;
+  const Options options{.min_area = 7.5e-6, .audit_points = 0};
   const radiosity::Outcome outcome = radiosity::solve(scene, options);
   REQUIRE(outcome.solution);
   const Solution& solution = *outcome.solution;

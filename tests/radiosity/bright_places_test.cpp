@@ -56,14 +56,13 @@ TEST_CASE("directions to bright places have the density that they say", "[audit]
       light.push_back({{{middle + radius * d, normal}, 0, 0}, 0.1 + random.uniform()});
     }
   }
-  const auto meet = [&](const raycast::SurfacePoint& from, const glm::dvec3& direction, std::uint32_t,
-                        std::uint32_t) -> std::optional<radiosity::Landing> {
-    return radiosity::Landing{{from.position + random.uniform() * direction, -direction}, 0, 0};
+  const auto meet = [&](const raycast::ScenePoint& from, const glm::dvec3& direction) -> std::optional<raycast::ScenePoint> {
+    return raycast::ScenePoint{{from.position + random.uniform() * direction, -direction}, 0, 0};
   };
   const BrightPlaces places{light, {6.0, std::numbers::sqrt3, 0.05 + 0.9 * random.uniform(), 4096}, meet};
   REQUIRE_FALSE(places.empty());
   for (int i = 0; i < 40; ++i) {
-    const glm::dvec3 x = i % 4 == 0 ? light[static_cast<std::size_t>(25 * i)].from.at.position : in_cube(random);
+    const glm::dvec3 x = i % 4 == 0 ? light[static_cast<std::size_t>(25 * i)].from.position : in_cube(random);
     const glm::dvec3 normal = any_direction(random);
     const BrightPlaces::From from{places, x, normal};
     constexpr int directions = 4000;
@@ -102,7 +101,7 @@ TEST_CASE("paths aimed at the inside of a shade find the light of a room, with l
       double mean = 0.0, squares = 0.0;
       for (int k = 0; k < paths; ++k) {
         std::uint64_t rays = 0;
-        const double b = tracer.radiosity((x - p.frame.centre) * p.frame.scale, {-1, 0, 0}, 0, 1, random, rays).all.x;
+        const double b = tracer.radiosity({{(x - p.frame.centre) * p.frame.scale, {-1, 0, 0}}, 0, 1}, random, rays).all.x;
         mean += b / paths;
         squares += b * b / paths;
       }

@@ -70,9 +70,7 @@ struct SpotRoom {
   }
   // A solution of the room, in which floor and ceiling, spot and lamp have the colours that the room says.
   [[nodiscard]] radiosity::Solution solution() const {
-    radiosity::Options options;
-    options.epsilon = 0.02;
-    options.audit_points = 0;
+    radiosity::Options options{.epsilon = 0.02, .audit_points = 0};
     radiosity::Solution solution = scenes::solved(scene, options);
     for (const radiosity::MeshFace& face : solution.mesh.faces) {
       const double b = face.surface == 0 ? 0.5 : face.surface == 2 ? radiosity : 1.0;
@@ -142,9 +140,7 @@ struct HiddenSpots {
   }
 
   [[nodiscard]] radiosity::Solution solution() const {
-    radiosity::Options options;
-    options.epsilon = 0.02;
-    options.audit_points = 0;
+    radiosity::Options options{.epsilon = 0.02, .audit_points = 0};
     radiosity::Solution solution = scenes::solved(scene, options);
     for (const radiosity::MeshFace& face : solution.mesh.faces) {
       const double b = face.surface == 0 ? 0.5 : face.surface < 5 ? 1.0 : face.surface < 54 ? radiosity : 1.0;
@@ -172,8 +168,7 @@ TEST_CASE("a small bright spot: gathered light differs from point to point as th
   double squares = 0.0;
   const auto gathered = [&](const glm::dvec3& x) {
     const radiosity::FinalGather::Place place{{(x - solution.frame.centre) * solution.frame.scale, {0, 0, 1}}, 0, 0};
-    const auto& rays = radiosity::gather_rays;
-    return light.indirect(place, rays.least, rays.most, rays.error, random.bits()).irradiance.x;
+    return light.indirect(place, radiosity::gather_rays, random.bits()).irradiance.x;
   };
   for (int i = 0; i < pairs; ++i) {
     const glm::dvec3 x{1.6 * random.uniform() - 0.8, 1.6 * random.uniform() - 0.8, 0.0};
@@ -199,8 +194,7 @@ TEST_CASE("a faint bright spot: no gathered point is too dark because its rays a
     for (int i = 0; i < places; ++i) {
       const glm::dvec3 x{1.6 * random.uniform() - 0.8, 1.6 * random.uniform() - 0.8, 0.0};
       const radiosity::FinalGather::Place place{{(x - solution.frame.centre) * solution.frame.scale, {0, 0, 1}}, 0, 0};
-      const auto& rays = radiosity::gather_rays;
-      const double off = light.indirect(place, rays.least, rays.most, rays.error, random.bits()).irradiance.x / room.irradiance(x) - 1.0;
+      const double off = light.indirect(place, radiosity::gather_rays, random.bits()).irradiance.x / room.irradiance(x) - 1.0;
       squares += off * off / (rooms * places);
     }
   }
@@ -222,9 +216,8 @@ TEST_CASE("where most light comes from near by, the nearness of light tells it",
   const radiosity::Solution solution = room.solution();
   const radiosity::FinalGather light{room.scene, solution.mesh, solution.frame};
   const radiosity::FinalGather::Place place{{(x - solution.frame.centre) * solution.frame.scale, {0, 0, 1}}, 0, 0};
-  const auto& rays = radiosity::gather_rays;
   const double distance = solution.frame.scale * glm::length(room.middle - x);
-  CHECK(light.indirect(place, rays.least, rays.most, rays.error, random.bits()).nearness_of_light > 0.5 / distance);
+  CHECK(light.indirect(place, radiosity::gather_rays, random.bits()).nearness_of_light > 0.5 / distance);
 }
 
 // Over independent families of rays the mean is off by at most five of its standard errors, and .3 %: the mesh of a sphere stands for its
@@ -267,7 +260,7 @@ TEST_CASE("paths of near light find bright spots without bias, and with less noi
   const radiosity::NearLight near{lookup, direct, materials, no_photons};
   const glm::dvec3 x{0.3, -0.2, 0.0};
   const radiosity::NearLight::Seen seen{{{(x - solution.frame.centre) * solution.frame.scale, {0, 0, 1}}, 0, 0}, radiosity::Color{1.0}};
-  const radiosity::BrightSpots::From from{spots, seen.at.point.position};
+  const radiosity::BrightSpots::From from{spots, seen.at.position};
   constexpr int families = 256, paths = 64;
   const double f = room.form_factor(x, room.middle, room.half);
   double error[2] = {0.5 * room.radiosity * std::sqrt(f * (1.0 - f) / (families * paths)), 0.0};
@@ -294,18 +287,17 @@ TEST_CASE("a bright spot that is seen through a hole: gathered light differs fro
   const radiosity::Solution solution = room.solution();
   const radiosity::FinalGather light{room.scene, solution.mesh, solution.frame};
   radiosity::Random random{seed, 1};
-  const auto& rays = radiosity::gather_rays;
   constexpr int points = 128;
   double squares = 0.0, sum = 0.0;
   for (int i = 0; i < points; ++i) {
     const glm::dvec3 x = room.foot + glm::dvec3{0.3 * random.uniform() - 0.15, 0.3 * random.uniform() - 0.15, 0.0};
     const radiosity::FinalGather::Place place{{(x - solution.frame.centre) * solution.frame.scale, {0, 0, 1}}, 0, 0};
-    const double off = light.indirect(place, rays.least, rays.most, rays.error, random.bits()).irradiance.x / room.irradiance(x) - 1.0;
+    const double off = light.indirect(place, radiosity::gather_rays, random.bits()).irradiance.x / room.irradiance(x) - 1.0;
     squares += off * off / points;
     sum += off / points;
   }
-  CHECK(std::sqrt(squares) < 2.0 * rays.error);
-  CHECK(std::abs(sum) < 5.0 * rays.error / std::sqrt(double{points}));  // no bias
+  CHECK(std::sqrt(squares) < 2.0 * radiosity::gather_rays.error);
+  CHECK(std::abs(sum) < 5.0 * radiosity::gather_rays.error / std::sqrt(double{points}));  // no bias
 }
 
 // The nearest that face the same way, by looking at all of them.

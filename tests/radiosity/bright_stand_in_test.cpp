@@ -40,9 +40,7 @@ TEST_CASE("light of a bright spot for which a mesh stands in has no bias", "[pic
   scene.objects = {scenes::square("floor", {0, 0, 0}, 1.0, true), scenes::square("ceiling", {0, 0, 1}, 4.0, false),
                    scenes::object("spot", raycast::Csg::make(ball).object, 0),
                    scenes::square("lamp", {0, 0, 2}, 0.5, true, 1)};  // behind the ceiling: it is seen from nowhere
-  radiosity::Options options;
-  options.epsilon = 0.02;
-  options.audit_points = 0;
+  radiosity::Options options{.epsilon = 0.02, .audit_points = 0};
   radiosity::Solution solution = scenes::solved(scene, options);
   for (const radiosity::MeshFace& face : solution.mesh.faces) {
     const double b = face.surface == 0 ? 0.5 : face.surface == 2 ? radiosity : 1.0;
@@ -69,13 +67,10 @@ TEST_CASE("light from within a shade for which a mesh stands in differs from poi
   const radiosity::Scene scene = scenes::shaded_lamp(seed);
   radiosity::Random random{seed, 1};
   CAPTURE(seed);
-  radiosity::Options options;
-  options.epsilon = 0.02;
-  options.audit_points = 0;
+  radiosity::Options options{.epsilon = 0.02, .audit_points = 0};
   const radiosity::Solution solution = scenes::solved(scene, options);
   const radiosity::FinalGather light{scene, solution.mesh, solution.frame};
   REQUIRE(light.direct().lift(1) > 0.0);
-  const auto& rays = radiosity::gather_rays;
   constexpr int points = 24, families = 8;
   double squares = 0.0;
   for (int i = 0; i < points; ++i) {
@@ -83,12 +78,12 @@ TEST_CASE("light from within a shade for which a mesh stands in differs from poi
     const radiosity::FinalGather::Place place{{(x - solution.frame.centre) * solution.frame.scale, {-1, 0, 0}}, 0, 1};  // the sheet x1
     double sum = 0.0, own = 0.0;
     for (int k = 0; k < families; ++k) {
-      const double found = light.indirect(place, rays.least, rays.most, rays.error, random.bits()).irradiance.x;
+      const double found = light.indirect(place, radiosity::gather_rays, random.bits()).irradiance.x;
       sum += found / families;
       own += found * found / families;
     }
     squares += (own / (sum * sum) - 1.0) * families / (families - 1.0) / points;
   }
   CAPTURE(std::sqrt(squares));
-  CHECK(std::sqrt(squares) < rays.error);
+  CHECK(std::sqrt(squares) < radiosity::gather_rays.error);
 }

@@ -77,8 +77,7 @@ double absorbed_in_dim_room(const TwoRooms& rooms) {
                                              const glm::dvec3 d = p - eye;
                                              return d.x < 0.0 ? std::max(0.0, -glm::dot(d, n)) / std::pow(glm::dot(d, d), 1.5) : 0.0;
                                            }};
-  radiosity::Options options;
-  options.audit_points = 0;
+  const radiosity::Options options{.audit_points = 0};
   const radiosity::Solution s = scenes::solved(rooms.scene, options, control);
   double sum = 0.0;
   for (std::size_t i = 0; i < s.hierarchy.size(); ++i) {
@@ -111,7 +110,7 @@ double comes_through(const TwoRooms& rooms, Random& random) {
   for (int k = 0; k < paths; ++k) {
     const glm::dvec3 x{rooms.dim.x, rooms.hole_lo.y + random.uniform() * (rooms.hole_hi.y - rooms.hole_lo.y),
                        rooms.hole_lo.z + random.uniform() * (rooms.hole_hi.z - rooms.hole_lo.z)};
-    sum += tracer.radiosity((x - p.frame.centre) * p.frame.scale, {1, 0, 0}, 0, wall, random, rays).all.x;
+    sum += tracer.radiosity({{(x - p.frame.centre) * p.frame.scale, {1, 0, 0}}, 0, wall}, random, rays).all.x;
   }
   return sum / paths / rooms.reflectance * rooms.hole_area();
 }

@@ -54,7 +54,7 @@ PathTraced path_traced(const Scene& scene, const glm::dvec3& x, int count, std::
   std::uint64_t rays = 0;
   for (int i = 0; i < count; ++i) {
     radiosity::Random random{seed, static_cast<std::uint64_t>(i)};
-    const double b = tracer.radiosity(in_frame(p, x), {0, 0, 1}, 0, 0, random, rays).all.x;
+    const double b = tracer.radiosity({{in_frame(p, x), {0, 0, 1}}, 0, 0}, random, rays).all.x;
     sum += b;
     square += b * b;
     result.largest = std::max(result.largest, b);

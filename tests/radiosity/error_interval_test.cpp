@@ -21,6 +21,7 @@
 #include <radiosity/audit/surface_error.hpp>
 #include <radiosity/geometry/form_factor.hpp>
 #include <radiosity/radiosity.hpp>
+#include <radiosity/refinement/discrete_scene.hpp>
 #include <radiosity/result/audit.hpp>
 #include <radiosity/result/error_estimate.hpp>
 #include <radiosity/result/mesh.hpp>
@@ -153,15 +154,15 @@ struct Held {
 Held intervals_that_hold(const Scene& scene, double truth, const radiosity::Solution& solution, std::uint32_t points, int seeds) {
   auto result = radiosity::prepare(scene);
   REQUIRE(result.prepared);
-  const radiosity::Prepared p = std::move(*result.prepared);
+  radiosity::DiscreteScene p{scene, 1, 1};
+  p.take(std::move(*result.prepared));
   const radiosity::PathTracer tracer{scene, p.objects, p.surfaces};
   radiosity::Mesh mesh = solution.mesh;
   for (auto& at : mesh.positions) { at = (at - p.frame.centre) * p.frame.scale; }
-  radiosity::Exposure exposure;
-  exposure.partly_buried.assign(solution.hierarchy.size(), false);
-  exposure.area = solution.area;
+  p.exposure.partly_buried.assign(solution.hierarchy.size(), false);
+  p.exposure.area = solution.area;
   const auto measured_error = [&](std::uint64_t seed, std::uint64_t rays_if_wide) {
-    radiosity::SurfaceErrorMeter meter{scene, p.objects, tracer, exposure, mesh, nullptr, seed};
+    radiosity::SurfaceErrorMeter meter{p, tracer, mesh, nullptr, seed};
     radiosity::SurfaceError measured;
     const bool complete = radiosity::measure_to_goal<radiosity::SurfaceError>(
         [&](std::uint64_t n, std::uint32_t paths, radiosity::SurfaceError& to) { return meter.measure(n, paths, 1, {}, to); },
@@ -193,11 +194,7 @@ TEST_CASE("audit: of 240 intervals over 24 scenes of known radiosity at least 93
   int held = 0, until_narrow = 0;
   for (int k = 0; k < scenes_asked; ++k) {
     const KnownScene of = random_known_scene(k % 4, random);
-    radiosity::Options options;
-    options.epsilon = 0.1;
-    options.min_area = 1e-3;
-    options.audit_points = 0;
-    options.threads = 1;
+    radiosity::Options options{.epsilon = 0.1, .min_area = 1e-3, .audit_points = 0, .threads = 1};
     const radiosity::Solution solution = scenes::solved(of.scene, options);
     const double truth = true_mesh_error(solution.mesh, of.exact, 32);
     // The figure is known: from a quarter of the points it is the same to .2 %.
@@ -272,11 +269,7 @@ TEST_CASE("audit: of 240 intervals over 24 closed rooms with light to and fro at
   int held = 0, until_narrow = 0;
   for (int k = 0; k < scenes_asked; ++k) {
     const Scene furnace = random_furnace(random);
-    radiosity::Options options;
-    options.epsilon = 0.1;
-    options.min_area = 1e-3;
-    options.audit_points = 0;
-    options.threads = 1;
+    radiosity::Options options{.epsilon = 0.1, .min_area = 1e-3, .audit_points = 0, .threads = 1};
     radiosity::Solution solution = scenes::solved(furnace, options);
     const double truth = spoil(solution.mesh, furnace, random);
     const Held of_these = intervals_that_hold(furnace, truth, solution, 250, seeds);

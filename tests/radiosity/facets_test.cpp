@@ -49,7 +49,7 @@ TEST_CASE("the form factor of a body by its outline is the sum over its facets, 
     CHECK(radiosity::form_factor(body, x, n, 1e-9, facing) == test::Approx(sum).margin(1e-12));
     if (above) {
       const double off = 0.2 * std::abs(number());
-      const radiosity::PossibleOutline outline{body, body.parts[0], x + off * glm::normalize(vector()), off};
+      const radiosity::PossibleOutline outline{body, body.parts[0], {x + off * glm::normalize(vector()), off}};
       CHECK(glm::dot(n, outline.light_vector(x, 1e-9, facing)) == test::Approx(sum).margin(1e-12));
     }
     across += !above && sum > 0.0 ? 1 : 0;

@@ -53,10 +53,7 @@ struct Coverage {
 };
 
 Factors run(const Scene& scene, std::uint64_t seed, double error) {
-  radiosity::FactorOptions options;
-  options.error = error;
-  options.seed = seed;
-  options.threads = 1;
+  const radiosity::FactorOptions options{.error = error, .threads = 1, .seed = seed};
   radiosity::FactorsResult result = radiosity::factors(scene, options);
   REQUIRE(result.factors);
   return std::move(*result.factors);
@@ -220,7 +217,7 @@ TEST_CASE("errors of factors: few rays, a ball in a ball sees the outer one alon
     REQUIRE(prepared.prepared);
     const radiosity::FactorRows rows = radiosity::name_rows(scene);
     const auto counted = [&](std::uint32_t from, std::uint64_t lines) {
-      radiosity::RayCounter counter{prepared.prepared->objects, rows.row_of, {from, false, {}, from, rows.row_of[from]}, from, 1, 2, trial};
+      radiosity::RayCounter counter{prepared.prepared->objects, rows.row_of, {from, false, {}, from, 1, rows.row_of[from]}, 2, trial};
       counter.extend(lines, 1);
       const auto estimate = [&](std::uint32_t to) { return Estimate{counter.factor(from, to).value, counter.factor(from, to).error}; };
       return std::pair{estimate(0), estimate(1)};

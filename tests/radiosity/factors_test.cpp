@@ -161,8 +161,8 @@ TEST_CASE("factors: what faces say and what rays say of the same room agree with
   double chi = 0.0;
   for (const std::string name : {"room.x0", "room.z1", "box.z1", "lamp"}) {
     const auto i = static_cast<std::uint32_t>(row(f, name));
-    const radiosity::RaySource source{rows.rows[i].object, false, rows.rows[i].facets, i, rows.row_of[rows.rows[i].object]};
-    radiosity::RayCounter counter{prepared.prepared->objects, rows.row_of, source, i, 1, n, 1};
+    const radiosity::RaySource source{rows.rows[i].object, false, rows.rows[i].facets, i, 1, {}};
+    radiosity::RayCounter counter{prepared.prepared->objects, rows.row_of, source, n, 1};
     counter.extend(2048, 1);
     for (std::uint32_t j = 0; j < n; ++j) {
       const radiosity::RayCounter::Mean rays = counter.factor(i, j);
@@ -189,8 +189,7 @@ TEST_CASE("factors: lines through a sphere, a cylinder and a disk count their ar
   const double pi = std::numbers::pi;
   const double areas[5] = {4.0 * pi, 2.0 * pi * 0.5 * std::sqrt(2.0), pi * 0.25, pi * 0.25, pi};
   for (const auto& [object, first, count] : {std::tuple{0u, 0u, 1u}, std::tuple{1u, 1u, 3u}, std::tuple{2u, 4u, 1u}}) {
-    radiosity::RayCounter counter{
-        prepared.prepared->objects, rows.row_of, {object, false, {}, first, rows.row_of[object]}, first, count, 5, 1};
+    radiosity::RayCounter counter{prepared.prepared->objects, rows.row_of, {object, false, {}, first, count, rows.row_of[object]}, 5, 1};
     counter.extend(1024, 1);
     for (std::uint32_t i = first; i < first + count; ++i) {
       const auto area = counter.area(i);
@@ -340,7 +339,6 @@ TEST_CASE("total exchange: a mirror room has no steady state, and impossible emi
 
 TEST_CASE("factors: faulty scenes and options are refused with a sentence") {
   CHECK(radiosity::factors(grey()).faults.size() == 1);
-  radiosity::FactorOptions options;
-  options.error = 0.0;
+  const radiosity::FactorOptions options{.error = 0.0};
   CHECK(radiosity::factors(scenes::two_plates(0.5), options).faults.size() == 1);
 }

@@ -20,7 +20,7 @@ inline constexpr std::uint32_t rays_of_family = 1024;
 inline OfFamilies gathered(const radiosity::FinalGather& light, const radiosity::FinalGather::Place& place, std::uint64_t seed) {
   double sum = 0.0, squares = 0.0;
   for (std::uint64_t key = 0; key < families; ++key) {
-    const double value = light.indirect(place, rays_of_family, rays_of_family, 0.0, radiosity::scramble(seed) + key).irradiance.x;
+    const double value = light.indirect(place, {rays_of_family, rays_of_family, 0.0}, radiosity::scramble(seed) + key).irradiance.x;
     sum += value / families;
     squares += value * value / families;
   }

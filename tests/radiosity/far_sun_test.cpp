@@ -80,7 +80,7 @@ TEST_CASE("sun: paths find its light at any distance and size") {
     std::uint64_t rays = 0;
     for (int k = 0; k < paths; ++k) {
       Random own{seed, static_cast<std::uint64_t>(trial), static_cast<std::uint64_t>(k)};
-      const double b = tracer.radiosity(at, {0, 0, 1}, 0, 0, own, rays).all.x;
+      const double b = tracer.radiosity({{at, {0, 0, 1}}, 0, 0}, own, rays).all.x;
       sum += b / paths;
       most = std::max(most, b);
     }

@@ -247,9 +247,7 @@ TEST_CASE("the sphere of a point of indirect light ends before what few of its r
   const auto seed = std::random_device{}();
   INFO("seed " << seed);
   radiosity::Random random{seed, 0};
-  radiosity::Options options;
-  options.epsilon = 0.5;
-  options.audit_points = 0;
+  const radiosity::Options options{.epsilon = 0.5, .audit_points = 0};
   for (int round = 0; round < 6; ++round) {
     const double width = 0.02 * std::pow(20.0, random.uniform());
     radiosity::Scene scene{{{"white", radiosity::Color{0.5}, radiosity::Color{0.0}}, {"sky", radiosity::Color{0.0}, radiosity::Color{1.0}}},
@@ -265,7 +263,7 @@ TEST_CASE("the sphere of a point of indirect light ends before what few of its r
       const glm::dvec3 x{0, 2.0 * random.uniform() - 1.0, 3.0 - below};
       if (below > 1.5) { continue; }
       const radiosity::FinalGather::Place place{{(x - solution.frame.centre) * solution.frame.scale, {-1, 0, 0}}, 1, 6};
-      const auto found = light.indirect(place, 512, 512, 0.03, random.bits());
+      const auto found = light.indirect(place, {512, 512, 0.03}, random.bits());
       const double seen = 0.5 * (1.0 - below / std::hypot(below, width)), nearest = found.nearest / solution.frame.scale;
       CAPTURE(width, below, seen, nearest);
       CHECK(nearest > 0.99 * below);

@@ -63,8 +63,8 @@ TEST_CASE("segments: eight drawn at once have the bits of segments drawn one by 
       radiosity::Random one_by_one = random, passed = random;
       radiosity::detail::SampledSegments drawn;
       const std::uint64_t state = passed.pass(radiosity::detail::numbers_per_round);
-      radiosity::detail::draw_segments(radiosity::detail::SamplePieces{p}, radiosity::detail::SamplePieces{q}, state, shift, 0.01, drawn,
-                                       set);
+      const radiosity::detail::SampledPair between{radiosity::detail::SamplePieces{p}, radiosity::detail::SamplePieces{q}, 0.01};
+      radiosity::detail::draw_segments(between, state, shift, drawn, set);
       for (std::uint32_t i = 0; i < 16; ++i) {
         INFO("segment " << i << ", set " << static_cast<int>(set) << ", corners " << p.contour.size() << " " << q.contour.size());
         const glm::dvec3 x = radiosity::draw_exposed({&p, 0, nullptr, 0}, i, one_by_one);

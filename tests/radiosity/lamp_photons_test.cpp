@@ -57,12 +57,10 @@ radiosity::Scene row_of_rooms(int count, double others) {
 }
 
 radiosity::MeetFront met_among(const raycast::Scene& objects) {
-  return [&](const raycast::SurfacePoint& from, const glm::dvec3& direction, std::uint32_t object,
-             std::uint32_t sheet) -> std::optional<radiosity::Landing> {
+  return [&](const raycast::ScenePoint& from, const glm::dvec3& direction) -> std::optional<raycast::ScenePoint> {
     const raycast::Segment ray{from.position, direction * objects.diameter()};
-    const auto hit = objects.closest(ray, object, sheet);
-    if (!hit || !hit->front) { return std::nullopt; }
-    return radiosity::Landing{objects.object(hit->object).project(hit->sheet, ray.at(hit->t)), hit->object, hit->sheet};
+    const auto hit = objects.closest(from, ray.direction);
+    return hit && hit->front ? std::optional{objects.point(*hit, ray)} : std::nullopt;
   };
 }
 
@@ -90,7 +88,7 @@ Spread path_traced(const radiosity::Scene& scene, const glm::dvec3& x, std::uint
   return spread_of(20'000, [&](std::uint64_t k) {
     radiosity::Random numbers{seed, k};
     std::uint64_t rays = 0;
-    return tracer.radiosity((x - p.frame.centre) * p.frame.scale, {0, 0, 1}, 0, sheet, numbers, rays, most).all.x;
+    return tracer.radiosity({{(x - p.frame.centre) * p.frame.scale, {0, 0, 1}}, 0, sheet}, numbers, rays, most).all.x;
   });
 }
 
@@ -199,8 +197,7 @@ TEST_CASE("near light: the lamps of other rooms, however bright, add next to no 
   Spread found[2];
   for (const bool many : {false, true}) {
     const radiosity::Scene scene = row_of_rooms(many ? 9 : 1, others);
-    radiosity::Options options;
-    options.audit_points = 0;
+    const radiosity::Options options{.audit_points = 0};
     const NearFloor floor{scene, options};
     CHECK(floor.photons.empty() == !many);
     found[many] = floor.at(x, 4, seed, true);
@@ -230,9 +227,7 @@ TEST_CASE("near light: of many lamps, every second of them hidden, it is that of
     truth += 0.5 * radiosity::point_to_polygon(x, {0, 0, 1}, corners);
   }
   scene.objects.push_back(scenes::object("ceiling", scenes::box({-5, -5, 3.05}, {5, 5, 3.1}), 2));
-  radiosity::Options options;
-  options.epsilon = 0.3;
-  options.audit_points = 0;
+  const radiosity::Options options{.epsilon = 0.3, .audit_points = 0};
   const NearFloor floor{scene, options};
   for (const bool guided : {false, true}) {
     const Spread found = floor.at(x, 0, seed, guided);

@@ -53,9 +53,7 @@ TEST_CASE("light oracle: over a leaf of a sphere the light of a lamp varies by n
   scene.materials = {{"grey", radiosity::Color{0.5}, radiosity::Color{0.0}}, {"lamp", radiosity::Color{0.0}, radiosity::Color{1.0}}};
   scene.objects = {scenes::object("ball", raycast::Sphere::make({0, 0, 0}, 0.5).object, 0),
                    scenes::object("lamp", scenes::polygon(lamp), 1)};
-  radiosity::Options options;
-  options.audit_points = 0;
-  options.epsilon = 0.5;
+  radiosity::Options options{.epsilon = 0.5, .audit_points = 0};
   options.min_area = 1e-4;  // the lamp is far: nothing but its light splits anything
   options.light_epsilon = 0.0003;
   const radiosity::Solution solution = scenes::solved(scene, options);
@@ -102,8 +100,7 @@ TEST_CASE("light oracle: beside a long lamp, too, the light varies over no leaf 
     scene.materials = {{"grey", radiosity::Color{0.5}, radiosity::Color{0.0}}, {"lamp", radiosity::Color{0.0}, radiosity::Color{1.0}}};
     scene.objects = {scenes::object("wall", scenes::polygon({{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}}), 0),
                      scenes::object("lamp", scenes::polygon(lamp), 1)};
-    radiosity::Options options;
-    options.audit_points = 0;
+    radiosity::Options options{.audit_points = 0};
     options.epsilon = 1.0;    // nothing but the light splits anything,
     options.min_area = 0.05;  // and the lamp is not cut
     options.light_epsilon = 0.01;
@@ -166,10 +163,7 @@ TEST_CASE("tubes that touch a ceiling light it as they are long, and the room wi
       }
       scene.objects.push_back(scenes::object("tube", raycast::Mesh::make(corners, faces).object, 1));
     }
-    radiosity::Options options;
-    options.epsilon = 0.01;
-    options.min_area = 2e-4;
-    options.audit_points = 1000;
+    const radiosity::Options options{.epsilon = 0.01, .min_area = 2e-4, .audit_points = 1000};
     const radiosity::Audit audit = scenes::solved(scene, options).audit;
     REQUIRE(audit.leaf_error);
     CAPTURE(seed, audit.leaf_error->relative_l2, audit.leaf_error->low, audit.leaf_error->high, audit.leaves, audit.escaped);
@@ -213,10 +207,7 @@ TEST_CASE("a lamp behind a window: what the lamp sends elsewhere makes no error 
     const double radius = 0.5 + 1.5 * random.uniform();
     scene.objects.push_back(seed % 2 == 0 ? scenes::object("sun", raycast::Sphere::make(centre, radius).object, 1)
                                           : scenes::object("sun", scenes::box(centre - radius, centre + radius), 1));
-    radiosity::Options options;
-    options.epsilon = 0.02;
-    options.min_area = 2e-4;
-    options.audit_points = 1000;
+    const radiosity::Options options{.epsilon = 0.02, .min_area = 2e-4, .audit_points = 1000};
     const radiosity::Audit audit = scenes::solved(scene, options).audit;
     REQUIRE(audit.leaf_error);
     CAPTURE(seed, *audit.reflected_share, audit.leaf_error->relative_l2, audit.leaf_error->low, audit.leaf_error->high);
@@ -305,7 +296,7 @@ TEST_CASE("path tracing: the light that was reflected once is rho E F, whether l
     std::uint64_t rays = 0;
     for (int i = 0; i < paths; ++i) {
       radiosity::Random random{11, static_cast<std::uint64_t>(i)};
-      const radiosity::PathTracer::Light light = tracer.radiosity(x, {0, 0, -1}, 1, 0, random, rays);
+      const radiosity::PathTracer::Light light = tracer.radiosity({{x, {0, 0, -1}}, 1, 0}, random, rays);
       sum += light.direct.x / paths;
       square += light.direct.x * light.direct.x / paths;
       REQUIRE(light.all.x >= light.direct.x);

@@ -51,13 +51,13 @@ TEST_CASE("light vectors: where they are taken to be linear they are those by th
     const radiosity::Facets body = one_part(shape, 0.004);
     const glm::dvec3 centre = number(2.0, 60.0) * number.direction(), normal = run % 2 == 0 ? glm::dvec3{0.0} : number.direction();
     const double radius = number(0.05, 1.5);
-    const radiosity::PossibleOutline outline{body, body.parts[0], centre, radius};
-    const auto light = radiosity::LinearLightVector::fit(body.parts[0], outline, centre, radius, normal, 1e-9, facing);
+    const radiosity::PointRegion region{centre, radius, normal};
+    const radiosity::PossibleOutline outline{body, body.parts[0], region};
+    const auto light = radiosity::LinearLightVector::fit(body.parts[0], outline, region, 1e-9, facing);
     linear += light ? 1 : 0;
     for (int k = 0; k < 20 && light; ++k) {
       const glm::dvec3 out = number.direction();
-      const bool planar = normal != glm::dvec3{0.0};
-      const glm::dvec3 along = planar ? glm::normalize(out - glm::dot(out, normal) * normal) : out;
+      const glm::dvec3 along = region.planar() ? glm::normalize(out - glm::dot(out, normal) * normal) : out;
       const glm::dvec3 x = centre + radius * std::sqrt(number(0.0, 1.0)) * along;
       const glm::dvec3 exact = outline.light_vector(x, 1e-9, facing);
       CAPTURE(run, radius, glm::length(centre));
@@ -79,7 +79,7 @@ TEST_CASE("light vectors: a sphere of facets is round, and nothing else is", "[d
     const double r2 = roundness(ball, ball.parts[0]);
     CHECK(r2 == test::Approx(r * r).epsilon(0.01));  // facets cut its corners
     const glm::dvec3 x = centre + r * number(1.2, 50.0) * number.direction(), d = centre - x;
-    const glm::dvec3 exact = radiosity::PossibleOutline{ball, ball.parts[0], x, 0.0}.light_vector(x, 0.0, facing);
+    const glm::dvec3 exact = radiosity::PossibleOutline{ball, ball.parts[0], {x}}.light_vector(x, 0.0, facing);
     CHECK(glm::length(r2 * d / std::pow(glm::length(d), 3.0) - exact) <= 4e-3 * glm::length(exact));
 
     const radiosity::Facets ring = one_part(raycast::Torus::make(centre, number.direction(), r, 0.3 * r).object, 0.004 * r);

@@ -56,16 +56,13 @@ double floor_by_paths(const radiosity::Scene& scene, radiosity::Random& random) 
   std::uint64_t rays = 0;
   for (int k = 0; k < paths; ++k) {
     const glm::dvec3 x{6.0 * random.uniform(), 6.0 * random.uniform(), 0.0};
-    sum += tracer.radiosity(in_frame(x), {0, 0, 1}, 0, sheet, random, rays).all.x;
+    sum += tracer.radiosity({{in_frame(x), {0, 0, 1}}, 0, sheet}, random, rays).all.x;
   }
   return sum / paths;
 }
 
 double floor_solved(const radiosity::Scene& scene) {
-  radiosity::Options options;
-  options.audit_points = 0;
-  options.epsilon = 0.01;
-  options.min_area = 2e-4;
+  const radiosity::Options options{.epsilon = 0.01, .min_area = 2e-4, .audit_points = 0};
   const radiosity::Solution solution = scenes::solved(scene, options);
   double light = 0.0, area = 0.0;
   for (const radiosity::MeshFace& face : solution.mesh.faces) {

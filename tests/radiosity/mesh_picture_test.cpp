@@ -26,11 +26,7 @@ using std::numbers::pi;
 
 // Looks along -z from (0, 0, 1): at z = 0 the picture shows x and y from -1 to 1, y upwards.
 radiosity::View view(std::uint32_t pixels) {
-  radiosity::Camera camera;
-  camera.eye = {0.0, 0.0, 1.0};
-  camera.forward = {0.0, 0.0, -1.0};
-  camera.up = {0.0, 1.0, 0.0};
-  camera.field_of_view = 90.0;
+  const radiosity::Camera camera{.eye = {0.0, 0.0, 1.0}, .forward = {0.0, 0.0, -1.0}, .up = {0.0, 1.0, 0.0}, .field_of_view = 90.0};
   return radiosity::make_view(camera, {pixels, pixels});
 }
 
@@ -39,8 +35,8 @@ radiosity::Picture picture(const radiosity::Mesh& mesh, std::uint32_t pixels, un
 }
 
 // A quadrilateral in the plane z = 0 that faces the camera.
-void add_rectangle(radiosity::Mesh& mesh, double x0, double y0, double x1, double y1, const Color& color, std::uint32_t surface = 0) {
-  add_face(mesh, {{{x0, y0, 0.0}, color}, {{x1, y0, 0.0}, color}, {{x1, y1, 0.0}, color}, {{x0, y1, 0.0}, color}}, surface);
+void add_rectangle(radiosity::Mesh& mesh, const glm::dvec2& lo, const glm::dvec2& hi, const Color& color, std::uint32_t surface = 0) {
+  add_face(mesh, {{{lo, 0.0}, color}, {{hi.x, lo.y, 0.0}, color}, {{hi, 0.0}, color}, {{lo.x, hi.y, 0.0}, color}}, surface);
 }
 
 constexpr std::uint32_t wall = 0, lamp = 1;  // materials
@@ -61,7 +57,7 @@ radiosity::SceneObject box(const glm::dvec3& low, const glm::dvec3& high) {
 
 TEST_CASE("a rectangle covers exactly its pixels, the right way up") {
   radiosity::Mesh mesh;
-  add_rectangle(mesh, -0.5, 0.0, 0.25, 0.75, Color(pi));  // columns 2 to 4, rows 1 to 3 of 8
+  add_rectangle(mesh, {-0.5, 0.0}, {0.25, 0.75}, Color(pi));  // columns 2 to 4, rows 1 to 3 of 8
   const radiosity::Picture p = picture(mesh, 8);
   for (std::uint32_t y = 0; y < 8; ++y) {
     for (std::uint32_t x = 0; x < 8; ++x) {
@@ -119,21 +115,18 @@ TEST_CASE("the nearer face hides the farther one, and of coplanar ones the later
   const Color red(pi, 0.0, 0.0);
   const Color green(0.0, pi, 0.0);
   add_face(mesh, {{{-1.0, -1.0, 0.5}, green}, {{0.0, -1.0, 0.5}, green}, {{0.0, 1.0, 0.5}, green}, {{-1.0, 1.0, 0.5}, green}}, 1);
-  add_rectangle(mesh, -1.0, -1.0, 1.0, 1.0, red, 2);
+  add_rectangle(mesh, {-1.0, -1.0}, {1.0, 1.0}, red, 2);
   const radiosity::Picture p = picture(mesh, 8);
   CHECK(p.pixel(1, 4) == radiosity::Rgb8{0, 255, 0});
   CHECK(p.pixel(6, 4) == radiosity::Rgb8{255, 0, 0});
 
   // A lamp in a ceiling that is cut differently, seen at a grazing angle.
   radiosity::Mesh ceiling;
-  add_rectangle(ceiling, 0.1, 0.1, 0.7, 0.8, green, 5);
+  add_rectangle(ceiling, {0.1, 0.1}, {0.7, 0.8}, green, 5);
   for (int i = -7; i < 7; ++i) {
-    for (int j = -7; j < 7; ++j) { add_rectangle(ceiling, i / 7.0, j / 7.0, (i + 1) / 7.0, (j + 1) / 7.0, red, 4); }
+    for (int j = -7; j < 7; ++j) { add_rectangle(ceiling, {i / 7.0, j / 7.0}, {(i + 1) / 7.0, (j + 1) / 7.0}, red, 4); }
   }
-  radiosity::Camera camera;
-  camera.eye = {-3.0, 0.3, 0.11};
-  camera.forward = {3.0, 0.1, -0.11};
-  camera.field_of_view = 30.0;
+  const radiosity::Camera camera{.eye = {-3.0, 0.3, 0.11}, .forward = {3.0, 0.1, -0.11}, .field_of_view = 30.0};
   const radiosity::Picture grazing = radiosity::draw(ceiling, radiosity::make_view(camera, {300, 100}), 1.0, 1).value();
   std::size_t green_seen = 0;
   for (const glm::vec3& shown : grazing.shown) {
@@ -141,7 +134,7 @@ TEST_CASE("the nearer face hides the farther one, and of coplanar ones the later
     green_seen += shown.y == 1.0f ? 1 : 0;
   }
   radiosity::Mesh lamp_alone;
-  add_rectangle(lamp_alone, 0.1, 0.1, 0.7, 0.8, green, 5);
+  add_rectangle(lamp_alone, {0.1, 0.1}, {0.7, 0.8}, green, 5);
   const radiosity::Picture alone = radiosity::draw(lamp_alone, radiosity::make_view(camera, {300, 100}), 1.0, 1).value();
   std::size_t expected = 0;
   for (const glm::vec3& shown : alone.shown) { expected += shown.y == 1.0f ? 1 : 0; }
@@ -187,14 +180,14 @@ TEST_CASE("exposure is linear in light, pixels are sRGB") {
   CHECK(int{radiosity::to_byte(0.0)} == 0);
   CHECK(int{radiosity::to_byte(1.0)} == 255);
   radiosity::Mesh mesh;
-  add_rectangle(mesh, -1.0, -1.0, 1.0, 1.0, Color(0.25 * pi, 0.05 * pi, 40.0));
+  add_rectangle(mesh, {-1.0, -1.0}, {1.0, 1.0}, Color(0.25 * pi, 0.05 * pi, 40.0));
   CHECK(picture(mesh, 4, 1, 2.0).pixel(1, 1) == radiosity::Rgb8{radiosity::to_byte(0.5), radiosity::to_byte(0.1), 255});
   CHECK(picture(mesh, 4, 4, 0.5).pixel(1, 1)[0] == radiosity::to_byte(0.125));
 }
 
 TEST_CASE("samples are clamped before they are averaged: the edge of a bright lamp stays smooth") {
   radiosity::Mesh mesh;
-  add_rectangle(mesh, -1.0, -1.0, 0.125, 1.0, Color(1000.0 * pi));  // half of column 4 of 8
+  add_rectangle(mesh, {-1.0, -1.0}, {0.125, 1.0}, Color(1000.0 * pi));  // half of column 4 of 8
   const radiosity::Picture p = picture(mesh, 8, 4);
   CHECK(int{p.pixel(3, 3)[0]} == 255);
   CHECK(int{p.pixel(4, 3)[0]} == int{radiosity::to_byte(0.5)});
@@ -230,9 +223,9 @@ TEST_CASE("automatic exposure shows the 98th percentile of what is seen as 0.8, 
   const radiosity::Scene scene = scene_of({sphere({0, 0, 0}, 1.0, wall), sphere({9, 0, 0}, 1.0, lamp)});
   const auto exposure = [&](const Color& light, bool lit) {
     radiosity::Mesh mesh;
-    if (!radiosity::is_black(light)) { add_rectangle(mesh, -1.0, -1.0, 1.0, 1.0, light, 0); }
-    add_rectangle(mesh, 5.0, 5.0, 9.0, 9.0, Color(1e6), 0);  // beside the view
-    if (lit) { add_rectangle(mesh, -0.5, -0.5, 0.5, 0.5, Color(1000.0), 1); }
+    if (!radiosity::is_black(light)) { add_rectangle(mesh, {-1.0, -1.0}, {1.0, 1.0}, light, 0); }
+    add_rectangle(mesh, {5.0, 5.0}, {9.0, 9.0}, Color(1e6), 0);  // beside the view
+    if (lit) { add_rectangle(mesh, {-0.5, -0.5}, {0.5, 0.5}, Color(1000.0), 1); }
     return radiosity::automatic_exposure(mesh, scene, view(100));
   };
   const Color light{1.0, 0.5, 0.0};
@@ -244,8 +237,8 @@ TEST_CASE("automatic exposure shows the 98th percentile of what is seen as 0.8, 
   // A bright corner counts when it takes more than 2 % of the view: 0.25 x 0.25 of 2 x 2 is 1.6 %, 0.4 x 0.4 is 4 %.
   for (const double side : {0.25, 0.4}) {
     radiosity::Mesh mesh;
-    add_rectangle(mesh, -1.0, -1.0, 1.0, 1.0, Color(1.0), 0);
-    add_rectangle(mesh, 1.0 - side, 1.0 - side, 1.0, 1.0, Color(4.0), 0);  // the later of coplanar ones, for it is drawn later
+    add_rectangle(mesh, {-1.0, -1.0}, {1.0, 1.0}, Color(1.0), 0);
+    add_rectangle(mesh, {1.0 - side, 1.0 - side}, {1.0, 1.0}, Color(4.0), 0);  // the later of coplanar ones, for it is drawn later
     CHECK(radiosity::automatic_exposure(mesh, scene, view(200)) == test::Approx(0.8 * pi / (side < 0.3 ? 1.0 : 4.0)));
   }
 }

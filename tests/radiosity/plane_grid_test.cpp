@@ -3,7 +3,6 @@
 #include "catch.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -11,6 +10,7 @@
 #include <vector>
 
 #include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 #include <radiosity/picture/plane_grid.hpp>
@@ -35,20 +35,19 @@ Plane any_plane(radiosity::Random& random) {
 }
 
 // A rectangle in triangles, divided the more the nearer to a point of it: as a mesh is at a contact.
-void divide(const Plane& plane, double u0, double v0, double u1, double v1, const std::array<double, 2>& fine, int depth,
-            Triangles& result) {
-  const double size = std::max(u1 - u0, v1 - v0);
-  const double du = std::max({u0 - fine[0], fine[0] - u1, 0.0}), dv = std::max({v0 - fine[1], fine[1] - v1, 0.0});
+void divide(const Plane& plane, const glm::dvec2& lo, const glm::dvec2& hi, const glm::dvec2& fine, int depth, Triangles& result) {
+  const double size = std::max(hi.x - lo.x, hi.y - lo.y);
+  const double du = std::max({lo.x - fine.x, fine.x - hi.x, 0.0}), dv = std::max({lo.y - fine.y, fine.y - hi.y, 0.0});
   if (depth > 0 && size > 0.5 * std::max(du, dv)) {
-    const double u = 0.5 * (u0 + u1), v = 0.5 * (v0 + v1);
-    divide(plane, u0, v0, u, v, fine, depth - 1, result);
-    divide(plane, u, v0, u1, v, fine, depth - 1, result);
-    divide(plane, u0, v, u, v1, fine, depth - 1, result);
-    divide(plane, u, v, u1, v1, fine, depth - 1, result);
+    const glm::dvec2 middle = 0.5 * (lo + hi);
+    divide(plane, lo, middle, fine, depth - 1, result);
+    divide(plane, {middle.x, lo.y}, {hi.x, middle.y}, fine, depth - 1, result);
+    divide(plane, {lo.x, middle.y}, {middle.x, hi.y}, fine, depth - 1, result);
+    divide(plane, middle, hi, fine, depth - 1, result);
     return;
   }
-  result.push_back({plane.at(u0, v0), plane.at(u1, v0), plane.at(u1, v1)});
-  result.push_back({plane.at(u0, v0), plane.at(u1, v1), plane.at(u0, v1)});
+  result.push_back({plane.at(lo.x, lo.y), plane.at(hi.x, lo.y), plane.at(hi.x, hi.y)});
+  result.push_back({plane.at(lo.x, lo.y), plane.at(hi.x, hi.y), plane.at(lo.x, hi.y)});
 }
 
 // A fan around one corner of a polygon with many.
@@ -106,7 +105,7 @@ TEST_CASE("a point of a plane is found in a triangle that holds it, where there 
   for (int k = 0; k < 20; ++k) {
     const Plane plane = any_plane(random);
     Triangles triangles;
-    divide(plane, -1, -1, 1, 1, {2.0 * random.uniform() - 1.0, 2.0 * random.uniform() - 1.0}, 3 + k % 12, triangles);
+    divide(plane, {-1, -1}, {1, 1}, {2.0 * random.uniform() - 1.0, 2.0 * random.uniform() - 1.0}, 3 + k % 12, triangles);
     if (k % 3 == 1) { triangles.resize(triangles.size() / 2); }  // parts that are buried
     if (k % 3 == 2) {
       std::swap(triangles.front(), triangles[triangles.size() / 2]);

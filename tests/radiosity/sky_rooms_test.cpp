@@ -64,11 +64,7 @@ SkyRoom sky_room(Random& random) {
 
 // Mean radiosity of the ceiling, which sees the sky nowhere: all of its light was reflected.
 double solved_ceiling(const SkyRoom& room) {
-  radiosity::Options options;
-  options.indirect = radiosity::Indirect::rays;
-  options.epsilon = 0.01;
-  options.min_area = 2e-4;
-  options.audit_points = 0;
+  const radiosity::Options options{.epsilon = 0.01, .min_area = 2e-4, .indirect = radiosity::Indirect::rays, .audit_points = 0};
   const radiosity::Outcome outcome = radiosity::solve(room.scene, options);
   REQUIRE(outcome.solution);
   for (const radiosity::SurfaceMean& surface : outcome.solution->audit.surfaces) {
@@ -88,7 +84,7 @@ double traced_ceiling(const SkyRoom& room, Random& random) {
   std::uint64_t rays = 0;
   for (int k = 0; k < paths; ++k) {
     const glm::dvec3 x{room.size.x * random.uniform(), room.size.y * random.uniform(), room.size.z};
-    sum += tracer.radiosity((x - p.frame.centre) * p.frame.scale, {0, 0, -1}, 0, 4, random, rays).all.x;
+    sum += tracer.radiosity({{(x - p.frame.centre) * p.frame.scale, {0, 0, -1}}, 0, 4}, random, rays).all.x;
   }
   return sum / paths;
 }
@@ -120,10 +116,7 @@ SkyHall sky_hall(Random& random) {
 
 // Mean radiosity of the last third of the wall, seen from the middle of the hall.
 double solved_far_wall(const SkyHall& hall) {
-  radiosity::Options options;
-  options.epsilon = 0.01;
-  options.min_area = 2e-4;
-  options.audit_points = 0;
+  const radiosity::Options options{.epsilon = 0.01, .min_area = 2e-4, .audit_points = 0};
   const glm::dvec3 eye{0.5 * hall.size.x, 0.5 * hall.size.y, 0.5 * hall.size.z};
   radiosity::Control control;
   control.viewpoint = radiosity::Viewpoint{eye, [&](const glm::dvec3& p, const glm::dvec3& n) {  // all that lies ahead, by solid angle
@@ -155,7 +148,7 @@ double traced_far_wall(const SkyHall& hall, Random& random) {
   std::uint64_t rays = 0;
   for (int k = 0; k < paths; ++k) {
     const glm::dvec3 x{0.0, hall.size.y * (1.0 - random.uniform() / 3.0), hall.size.z * random.uniform()};
-    sum += tracer.radiosity((x - p.frame.centre) * p.frame.scale, {1, 0, 0}, 1, 1, random, rays).all.x;
+    sum += tracer.radiosity({{(x - p.frame.centre) * p.frame.scale, {1, 0, 0}}, 1, 1}, random, rays).all.x;
   }
   return sum / paths;
 }

@@ -56,7 +56,6 @@ TEST_CASE("the foot of a wall on a ground of any width: gathered light is that o
   const std::uint32_t surface = tracer.surface(wall, front);
   const glm::dvec3 normal{0, -1, 0};
   radiosity::Random random{seed, 1};
-  const auto& rays = radiosity::gather_rays;
   std::uint64_t cast = 0;
   REQUIRE(light.direct().lamps().empty());  // the sky shines all around, so it is gathered, too
   for (const double height : {0.02, 0.3, 1.0}) {
@@ -65,9 +64,9 @@ TEST_CASE("the foot of a wall on a ground of any width: gathered light is that o
     for (int i = 0; i < places; ++i) {
       const glm::dvec3 x{2.0 * random.uniform() - 1.0, 0.0, height};
       const radiosity::FinalGather::Place place{{(x - light.frame().centre) * light.frame().scale, normal}, wall, surface};
-      gathered += sum(0.7 * light.indirect(place, rays.least, rays.most, rays.error, random.bits()).irradiance) / places;
+      gathered += sum(0.7 * light.indirect(place, radiosity::gather_rays, random.bits()).irradiance) / places;
       for (int k = 0; k < paths; ++k) {
-        const auto found = tracer.radiosity(place.point.position, normal, wall, front, random, cast);
+        const auto found = tracer.radiosity({{place.point.position, normal}, wall, front}, random, cast);
         traced += sum(found.all) / (places * paths);
       }
     }

@@ -91,14 +91,14 @@ double path_traced(const radiosity::Scene& scene, const radiosity::View& view, d
       std::uint32_t from = raycast::no_object;
       for (auto hit = prepared.objects.closest(ray, from); hit; hit = prepared.objects.closest(ray, from)) {
         ++rays;
-        const raycast::SurfacePoint at = prepared.objects.object(hit->object).project(hit->sheet, ray.at(hit->t));
-        if (!hit->front || prepared.objects.covered(at.position, at.normal, hit->object)) {  // backs are looked through
+        const raycast::ScenePoint at = prepared.objects.point(*hit, ray);
+        if (!hit->front || prepared.objects.covered(at)) {  // backs are looked through
           ray.origin = at.position;
           from = hit->object;
           continue;
         }
-        shines = shines || !radiosity::is_black(tracer.material(tracer.surface(hit->object, hit->sheet)).emission);
-        const Color b = tracer.radiosity(at.position, at.normal, hit->object, hit->sheet, random, rays).all;
+        shines = shines || !radiosity::is_black(tracer.of(at).emission);
+        const Color b = tracer.radiosity(at, random, rays).all;
         sum += b;
         squares += b * b;
         break;
