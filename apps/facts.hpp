@@ -44,6 +44,13 @@ class Facts {
   void add(std::string path, const std::optional<T>& value, std::string unit = {}) {
     add(std::move(path), value ? Value(*value) : Value(), std::move(unit));
   }
+  // Facts of one unit whose paths begin alike: add_all("%", "error.", "low", low, "high", high).
+  void add_all(const std::string&, const std::string&) {}
+  template <class T, class... Rest>
+  void add_all(const std::string& unit, const std::string& object, const char* key, const T& value, const Rest&... rest) {
+    add(object + key, value, unit);
+    add_all(unit, object, rest...);
+  }
 
   [[nodiscard]] std::string json() const;
 

@@ -140,7 +140,7 @@ class Text {
   }
 
   void edges(const radiosity::ImprintedEdges& imprinted) {
-    const auto faces = [](std::uint64_t n) { return grouped(n) + (n == 1 ? " face" : " faces"); };
+    const auto faces = [](std::uint64_t n) { return grouped(n) + " " + plural(n, "face"); };
     std::string text = grouped(imprinted.edges) + " imprinted on " + faces(imprinted.faces);
     if (imprinted.limited > 0) { text += "; limit reached on " + grouped(imprinted.limited); }
     if (imprinted.not_looked_at > 0) {
@@ -168,7 +168,7 @@ class Text {
     say("open scene",
         "{stray_rays.escaping} of the rays from its surfaces meet nothing, {stray_rays.to_backs} a black back (+- "
         "{stray_rays.standard_error})");
-    say("residual", "{residual} after {iterations} iteration" + std::string(audit_.iterations == 1 ? "" : "s"),
+    say("residual", "{residual} after {iterations} " + plural(audit_.iterations, "iteration"),
         audit_.converged           ? ""
         : audit_.interrupted       ? " - INTERRUPTED, the best so far"
         : !audit_.shortage.empty() ? " - OUT OF MEMORY, the best so far"

@@ -23,10 +23,8 @@ std::optional<std::uint64_t> peak_bytes(const Report& report) {
 }
 
 void add_error(Facts& facts, const std::string& path, const radiosity::ErrorEstimate& error) {
-  facts.add(path + ".relative_l2", error.relative_l2, "%");
-  facts.add(path + ".standard_error", error.standard_error, "%");
-  facts.add(path + ".low", error.low, "%");
-  facts.add(path + ".high", error.high, "%");
+  facts.add_all("%", path + ".", "relative_l2", error.relative_l2, "standard_error", error.standard_error, "low", error.low, "high",
+                error.high);
   facts.add(path + ".wide", radiosity::is_wide(error));
 }
 
@@ -39,32 +37,28 @@ void add_picture_error(Facts& facts, const radiosity::PictureError& picture) {
   share("error.picture.over_2_levels", picture.over2);
   share("error.picture.over_8_levels", picture.over8);
   if (picture.worst) {
-    facts.add("error.picture.worst_tile.column", picture.worst->column);
-    facts.add("error.picture.worst_tile.row", picture.worst->row);
+    facts.add_all("", "error.picture.worst_tile.", "column", picture.worst->column, "row", picture.worst->row);
     add_error(facts, "error.picture.worst_tile", picture.worst->error);
   } else {
     facts.add("error.picture.worst_tile", {});
   }
-  facts.add("error.picture.points", picture.points);
-  facts.add("error.picture.rays", picture.rays);
+  facts.add_all("", "error.picture.", "points", picture.points, "rays", picture.rays);
 }
 
 void add_errors(Facts& facts, const Report& report) {
   const radiosity::Audit& audit = report.audit;
   if (!audit.leaf_error) { return facts.add("error", {}); }
   if (audit.surface_error) { add_error(facts, "error", *audit.surface_error); }  // missing if no reconstruction was requested
-  facts.add("error.points", audit.audit_points);
-  facts.add("error.rays", audit.audit_rays);
+  facts.add_all("", "error.", "points", audit.audit_points, "rays", audit.audit_rays);
   add_error(facts, "error.leaf", *audit.leaf_error);
   if (audit.mesh) {
-    add_error(facts, "error.mesh.before", audit.mesh->before);
-    add_error(facts, "error.mesh.after", audit.mesh->after);
-    facts.add("error.mesh.faces_before", audit.mesh->faces_before);
-    facts.add("error.mesh.faces_after", audit.mesh->faces_after);
-    facts.add("error.mesh.outlines_before", audit.mesh->outlines_before, "%");
-    facts.add("error.mesh.outlines_after", audit.mesh->outlines_after, "%");
-    facts.add("error.mesh.wanted", audit.mesh->wanted, "%");
-    facts.add("error.mesh.met", audit.mesh->met);
+    const radiosity::MeshRefinement& mesh = *audit.mesh;
+    add_error(facts, "error.mesh.before", mesh.before);
+    add_error(facts, "error.mesh.after", mesh.after);
+    facts.add_all("", "error.mesh.", "faces_before", mesh.faces_before, "faces_after", mesh.faces_after);
+    facts.add_all("%", "error.mesh.", "outlines_before", mesh.outlines_before, "outlines_after", mesh.outlines_after, "wanted",
+                  mesh.wanted);
+    facts.add("error.mesh.met", mesh.met);
   }
   if (audit.picture_error) {
     add_picture_error(facts, *audit.picture_error);
@@ -108,9 +102,7 @@ void add_stages(Facts& facts, const Report& report) {
 }
 
 void add_range(Facts& facts, const std::string& path, const radiosity::Audit::Range& range, const char* unit) {
-  facts.add(path + ".min", range.min, unit);
-  facts.add(path + ".mean", range.mean, unit);
-  facts.add(path + ".max", range.max, unit);
+  facts.add_all(unit, path + ".", "min", range.min, "mean", range.mean, "max", range.max);
 }
 
 void add_settings(Facts& facts, const Report& report) {
@@ -118,8 +110,7 @@ void add_settings(Facts& facts, const Report& report) {
   facts.add("exposure", report.exposure, "%.5g");
   facts.add("exposure_automatic", report.automatic_exposure);
   facts.add("tone", std::string(name(report.tone)));
-  facts.add("settings.epsilon", audit.epsilon, "%.3g");
-  facts.add("settings.min_area", audit.min_area, "%.3g");
+  facts.add_all("%.3g", "settings.", "epsilon", audit.epsilon, "min_area", audit.min_area);
   facts.add("settings.lit_part", audit.lit_part, "%.2g");
   facts.add("settings.light_epsilon", audit.light_epsilon, "%.3g");
   facts.add("settings.reflected_share", audit.reflected_share, "%.2g");
@@ -127,19 +118,16 @@ void add_settings(Facts& facts, const Report& report) {
   facts.add("settings.solver", std::string(name(report.options.solver)));
   facts.add("settings.reconstruction", std::string(name(report.options.reconstruction)));
   facts.add("settings.channels", audit.channels);
-  facts.add("settings.threads", audit.threads, "1");
-  facts.add("settings.seed", audit.seed, "1");
+  facts.add_all("1", "settings.", "threads", audit.threads, "seed", audit.seed);
   if (report.lightmap) {
-    facts.add("lightmap.width", report.lightmap->width, "1");
-    facts.add("lightmap.height", report.lightmap->height, "1");
+    facts.add_all("1", "lightmap.", "width", report.lightmap->width, "height", report.lightmap->height);
     facts.add("lightmap.texel", report.lightmap->texel, "%.3g");
   } else {
     facts.add("lightmap", {});
   }
   if (!report.picture) { return facts.add("picture", {}); }
   facts.add("picture.camera", report.picture->camera);
-  facts.add("picture.width", report.picture->width, "1");
-  facts.add("picture.height", report.picture->height, "1");
+  facts.add_all("1", "picture.", "width", report.picture->width, "height", report.picture->height);
   facts.add("picture.method", std::string(name(report.picture->method)));
 }
 
@@ -155,11 +143,9 @@ void add_lists(Facts& facts, const Report& report) {
   add_list(facts, "taken_in", report.taken_in, sentence);
   add_list(facts, "warnings", audit.warnings, sentence);
   if (audit.stray) {
-    facts.add("stray_rays.escaping", audit.stray->escaping, "%");
-    facts.add("stray_rays.to_backs", audit.stray->to_backs, "%");
-    facts.add("stray_rays.standard_error", audit.stray->standard_error, "%");
-    facts.add("stray_rays.closed_share", audit.stray->rays > 0 ? static_cast<double>(audit.stray->closed_rays) / audit.stray->rays : 0.0,
-              "%");
+    const radiosity::StrayRays& stray = *audit.stray;
+    facts.add_all("%", "stray_rays.", "escaping", stray.escaping, "to_backs", stray.to_backs, "standard_error", stray.standard_error,
+                  "closed_share", stray.rays > 0 ? static_cast<double>(stray.closed_rays) / stray.rays : 0.0);
   } else {
     facts.add("stray_rays", {});
   }
@@ -182,50 +168,32 @@ Facts facts_of(const Report& report) {
   facts.add("scene", report.scene);
   add_errors(facts, report);
   add_stages(facts, report);
-  facts.add("polygons", audit.polygons);
-  facts.add("nodes", audit.nodes);
-  facts.add("leaves", audit.leaves);
-  facts.add("leaf_splits", audit.leaf_splits);
+  facts.add_all("", "", "polygons", audit.polygons, "nodes", audit.nodes, "leaves", audit.leaves, "leaf_splits", audit.leaf_splits);
   if (audit.imprinted) {
-    facts.add("discontinuities.edges", audit.imprinted->edges);
-    facts.add("discontinuities.faces", audit.imprinted->faces);
-    facts.add("discontinuities.limited", audit.imprinted->limited);
-    facts.add("discontinuities.not_looked_at", audit.imprinted->not_looked_at);
+    const radiosity::ImprintedEdges& imprinted = *audit.imprinted;
+    facts.add_all("", "discontinuities.", "edges", imprinted.edges, "faces", imprinted.faces, "limited", imprinted.limited, "not_looked_at",
+                  imprinted.not_looked_at);
   } else {
     facts.add("discontinuities", {});
   }
-  facts.add("links", audit.links);
-  facts.add("link_splits", audit.link_splits);
-  facts.add("ray_links", audit.ray_links);
-  facts.add("stored_rays", audit.stored_rays);
-  facts.add("rays_for_view", audit.rays_for_view);
-  facts.add("clusters", audit.clusters);
-  facts.add("cluster_links", audit.cluster_links);
-  facts.add("rays", audit.rays);
-  facts.add("rays_avoided", audit.rays_avoided);
-  facts.add("pairs_clear", audit.pairs_clear);
-  facts.add("pairs_blocked", audit.pairs_hidden);
+  facts.add_all("", "", "links", audit.links, "link_splits", audit.link_splits, "ray_links", audit.ray_links, "stored_rays",
+                audit.stored_rays, "rays_for_view", audit.rays_for_view, "clusters", audit.clusters, "cluster_links", audit.cluster_links,
+                "rays", audit.rays, "rays_avoided", audit.rays_avoided, "pairs_clear", audit.pairs_clear, "pairs_blocked",
+                audit.pairs_hidden);
   facts.add("bytes", audit.bytes, "B");
   add_range(facts, "proportion", audit.proportion, "%.2f");
   add_range(facts, "row_sum", audit.row_sum, "%.6f");
   add_range(facts, "computed_row_sum", audit.computed_row_sum, "%.6f");
-  facts.add("overfull", audit.overfull, "%");
-  facts.add("ray_correction", audit.ray_correction, "%");
-  facts.add("closure", audit.closure, "%");
-  facts.add("estimated_error", audit.estimated_error, "%");
-  facts.add("estimated_leaf_error", audit.estimated_leaf_error, "%");
-  facts.add("estimate_doubt", audit.estimate_doubt);
-  facts.add("target_missed", audit.target_missed);
-  facts.add("rounds_ended_by", audit.rounds_ended_by);
-  facts.add("energy_balance", audit.energy_balance, "%");
-  facts.add("escaped", audit.escaped, "%");
+  facts.add_all("%", "", "overfull", audit.overfull, "ray_correction", audit.ray_correction, "closure", audit.closure, "estimated_error",
+                audit.estimated_error, "estimated_leaf_error", audit.estimated_leaf_error);
+  facts.add_all("", "", "estimate_doubt", audit.estimate_doubt, "target_missed", audit.target_missed, "rounds_ended_by",
+                audit.rounds_ended_by);
+  facts.add_all("%", "", "energy_balance", audit.energy_balance, "escaped", audit.escaped);
   facts.add("residual", audit.residual, "%.2e");
   facts.add("iterations", audit.iterations, "1");
   add_list(facts, "residual_histories", audit.histories, [](JsonWriter& json, const std::vector<double>& history) { json.value(history); });
-  facts.add("converged", audit.converged);
-  facts.add("interrupted", audit.interrupted);
-  facts.add("shortage", audit.shortage);
-  facts.add("coarsened", audit.coarsened);
+  facts.add_all("", "", "converged", audit.converged, "interrupted", audit.interrupted, "shortage", audit.shortage, "coarsened",
+                audit.coarsened);
   add_settings(facts, report);
   add_lists(facts, report);
   return facts;

@@ -31,9 +31,13 @@ template <class List>
   return std::find(list.begin(), list.end(), word) != list.end();
 }
 
-// "1 face", "2 faces". `several`: the plural, if it is not `one` with an s.
+// "face" or "faces". `several`: the plural, if it is not `one` with an s.
+[[nodiscard]] inline std::string plural(std::size_t count, const std::string& one, const std::string& several = {}) {
+  return count == 1 ? one : several.empty() ? one + "s" : several;
+}
+// "1 face", "2 faces".
 [[nodiscard]] inline std::string counted(std::size_t count, const std::string& one, const std::string& several = {}) {
-  return std::to_string(count) + " " + (count == 1 ? one : several.empty() ? one + "s" : several);
+  return std::to_string(count) + " " + plural(count, one, several);
 }
 
 // "a, b, c"; empty items are left out.

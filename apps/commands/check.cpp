@@ -119,7 +119,7 @@ std::string summary(const brep::Statistics& s, bool all) {
   text += "edges with one face: " + std::to_string(s.border_edges) + ", with more than two: " + std::to_string(s.nonmanifold_edges) + "\n";
   if (s.duplicate_positions > 0) {
     text += "repeated positions: " + std::to_string(s.duplicate_positions) + " (" +
-            (s.duplicate_positions == 1 ? "a vertex lies" : "vertices lie") +
+            plural(s.duplicate_positions, "a vertex lies", "vertices lie") +
             " exactly where another one lies; that is legal, and they are never merged)\n";
   }
   return text + component_table(s, all);
