@@ -157,7 +157,6 @@ class Explanation {
   // A step leads from h to next(from(h)).
   template <class IdType, class Range, class Owner, class From>
   void check_walks(Range&& range, Owner&& owner, From&& from, bool complete, const WalkRule& rule) {
-    const auto& [number, walk, cause] = rule;
     std::vector<bool> seen(brep_.halfedge_end(), false);
     bool anchored = true;
     for (IdType id : range) {
@@ -175,8 +174,8 @@ class Explanation {
       while (!seen[h.index]) {
         seen[h.index] = true;
         if (owner(h) != id && brep_.alive(owner(h))) {
-          add(number, {h, id, owner(h)},
-              to_string(h) + " names " + to_string(owner(h)) + ", but the walk " + walk + " from " + to_string(brep_.halfedge(id)) +
+          add(rule.number, {h, id, owner(h)},
+              to_string(h) + " names " + to_string(owner(h)) + ", but the walk " + rule.walk + " from " + to_string(brep_.halfedge(id)) +
                   ", the anchor of " + to_string(id) + ", passes it; usually a half-edge that was not relabelled");
         }
         const HalfedgeId after = brep_.next(from(h));
@@ -192,9 +191,9 @@ class Explanation {
     each_halfedge([&](HalfedgeId h) {
       if (seen[h.index]) { return; }
       const IdType id = owner(h);
-      add(number, {id, h},
-          to_string(id) + " is also named by " + to_string(h) + ", which the walk " + walk + " from its anchor " +
-              to_string(brep_.halfedge(id)) + " never reaches: " + cause);
+      add(rule.number, {id, h},
+          to_string(id) + " is also named by " + to_string(h) + ", which the walk " + rule.walk + " from its anchor " +
+              to_string(brep_.halfedge(id)) + " never reaches: " + rule.cause);
       for (HalfedgeId x = h; !seen[x.index]; x = brep_.next(from(x))) {
         seen[x.index] = true;  // one sentence for each further walk
       }
