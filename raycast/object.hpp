@@ -106,8 +106,11 @@ class Object {
   // all other objects.
   [[nodiscard]] virtual std::span<const glm::dvec3> outline() const { return {}; }
 
-  // The spans, bit for bit, that meet t in [0, 1], and possibly others. (A mesh then need not test its faces along the whole line.)
-  virtual void spans_of_segment(const Segment& segment, Spans& out) const { spans(segment, out); }
+  // The spans, bit for bit, that meet [t0, t1], and possibly others. (A mesh then need not test its faces along the whole line.)
+  virtual void spans_near(const Segment& line, double t0, double t1, Spans& out) const {
+    static_cast<void>(t0), static_cast<void>(t1);
+    spans(line, out);
+  }
 
   // Approximate cost of spans(), in rays through a scene of few polygons.
   [[nodiscard]] virtual double work() const { return 0.25; }

@@ -173,7 +173,7 @@ struct Scene::Stops {
 
 HALFLIGHT_INLINE bool Scene::blocks_by_spans(const Segment& s, const End& a, const End& b, std::uint32_t i) const {
   Spans spans;
-  objects_[i].spans_of_segment(s, spans);
+  objects_[i].spans_near(s, 0.0, 1.0, spans);
   return !spans.empty() && std::any_of(spans.begin(), spans.end(), Stops{*this, s, a, b, i});
 }
 
@@ -245,7 +245,7 @@ HALFLIGHT_INLINE void Scene::approach(const Line& line, const End& a, std::uint3
   double entry = 0.0;
   if (!object.inside() && !line.slabs(object.bounds(), 0.0, nearest.limit, entry)) { return; }
   Spans spans;
-  object.spans(s, spans);
+  object.spans_near(s, 0.0, nearest.limit, spans);
   const double skin_a = skin(a, i);
   const bool near_a = object.inside() || object.bounds().contains(s.origin, skin_a);
   for (const Span& span : spans) {
@@ -314,7 +314,7 @@ HALFLIGHT_INLINE bool Scene::covered(const glm::dvec3& p, const glm::dvec3& n, s
       return false;
     }
     Spans spans;
-    object.spans(out_of_p, spans);
+    object.spans_near(out_of_p, -near, near, spans);
     for (const Span& span : spans) {
       if (object.solid() && span.in.t <= near && span.out.t > near) { return true; }
       if (may_cover && std::abs(span.out.t) <= near && along(i, out_of_p, span.out) > tol_same_way) {

@@ -81,9 +81,9 @@ class PlacedObject {
     object_->spans(to_object(line), out);
     if (placement_.inside) { out.complement(); }
   }
-  void spans_of_segment(const Segment& segment, Spans& out) const {
-    if (placement_.inside) { return spans(segment, out); }
-    object_->spans_of_segment(to_object(segment), out);
+  void spans_near(const Segment& line, double t0, double t1, Spans& out) const {
+    if (placement_.inside) { return spans(line, out); }
+    object_->spans_near(to_object(line), t0, t1, out);
   }
 
   // For the body, without the solid part around a room.

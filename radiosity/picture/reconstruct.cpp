@@ -159,7 +159,7 @@ template <class Exposed>
 [[nodiscard]] HALFLIGHT_INLINE bool ends_at(const raycast::PlacedObject& object, const raycast::SurfacePoint& at, double touch) {
   const raycast::Segment line{at.position, at.normal};
   raycast::Spans spans;
-  object.spans(line, spans);
+  object.spans_near(line, -touch, touch, spans);
   return std::any_of(spans.begin(), spans.end(), [&](const raycast::Span& span) { return std::abs(span.out.t) <= touch; });
 }
 
@@ -217,7 +217,14 @@ template <class Exposed>
                          raycast::tol_contact * std::min(bounds.diameter(), own.object->bounds().diameter());
     const raycast::Box grown = bounds.grown(touch);
     if (!grown.contains(box.lo) || !grown.contains(box.hi)) { return false; }
-    for (std::uint32_t s = 0; s < other.object->sheet_count(); ++s) {
+    raycast::Spans through;  // the sheets at the middle of the face; its foot on each is at most `touch` away, aslant by the cosine below
+    other.object->spans_near({middle, normal}, -2.0 * touch, 2.0 * touch, through);
+    std::vector<std::uint32_t> sheets;
+    for (const raycast::Span& span : through) {
+      if (std::abs(span.in.t) <= 2.0 * touch) { sheets.push_back(span.in.sheet); }
+      if (std::abs(span.out.t) <= 2.0 * touch) { sheets.push_back(span.out.sheet); }
+    }
+    for (const std::uint32_t s : sheets) {
       const bool on = std::all_of(within.begin(), within.end(), [&](const glm::dvec3& p) {
         const raycast::SurfacePoint foot = other.object->project(s, p);
         const double cosine = glm::dot(foot.normal, normal);

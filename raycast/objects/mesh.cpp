@@ -47,11 +47,11 @@ HALFLIGHT_INLINE Made<Mesh> Mesh::make(const std::vector<glm::dvec3>& positions,
   return std::shared_ptr<const Mesh>(std::move(mesh));
 }
 
-HALFLIGHT_INLINE void Mesh::spans_of_segment(const Segment& segment, Spans& out) const {
-  if (solid()) { return spans(segment, out); }
-  const double distance = box_.magnitude() + glm::length(segment.origin) + box_.diameter();
-  const double margin = tol_beyond_ends + eps_surface * distance / glm::length(segment.direction);
-  spans_between(segment, -margin, 1.0 + margin, out);
+HALFLIGHT_INLINE void Mesh::spans_near(const Segment& line, double t0, double t1, Spans& out) const {
+  if (solid()) { return spans(line, out); }
+  const double distance = box_.magnitude() + glm::length(line.origin) + box_.diameter();
+  const double margin = tol_beyond_ends + eps_surface * distance / glm::length(line.direction);
+  spans_between(line, t0 - margin, t1 + margin, out);
 }
 
 HALFLIGHT_INLINE void Mesh::compile(Compiler& compiler) const {

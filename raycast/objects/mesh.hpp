@@ -79,7 +79,7 @@ class Mesh final : public Object {
     spans_between(line, -infinity, infinity, out);
   }
   // The crossings of a surface without inside are independent of each other; those of a solid are told apart by all crossings before them.
-  void spans_of_segment(const Segment& segment, Spans& out) const override;
+  void spans_near(const Segment& line, double t0, double t1, Spans& out) const override;
 
   void compile(Compiler& compiler) const override;
 
