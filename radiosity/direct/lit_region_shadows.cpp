@@ -95,8 +95,13 @@ HALFLIGHT_INLINE bool LitRegion::take_bodies(Reach& reach, const raycast::PatchS
       all = false;
       continue;
     }
+    // The lamp does not hide itself. Its corners leave its plane by more than the slack if it is a distant sun, whose rounding is larger.
+    const bool own = std::find(lamp.object_of.begin(), lamp.object_of.end(), o) != lamp.object_of.end();
+    const double thickness = slack + 2.0 * light_->true_objects_->object(o).slack();
+    const auto in_lamp = [&](const glm::dvec3& p) { return std::abs(lamp.facets.facets[0].height(p)) <= thickness; };
     const std::size_t before = reach.faces.size();
     for (const Facets::Facet& facet : body.facets.facets) {
+      if (own && std::all_of(facet.contour.begin(), facet.contour.end(), in_lamp)) { continue; }
       // A back face of a closed body: its front faces hide as much.
       if (body.closed && facet.height(region_.centre) <= slack - region_.radius) { continue; }
       if (!shaft.empty() && shaft[0].misses(facet.contour)) { continue; }

@@ -14,6 +14,7 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
+#include <raycast/objects/mesh.hpp>
 #include <raycast/objects/sphere.hpp>
 
 #include <radiosity/audit/path_tracer.hpp>
@@ -27,6 +28,7 @@
 #include <radiosity/visibility/prepare.hpp>
 
 #include "catch.hpp"
+#include "lit_world.hpp"
 #include "scenes.hpp"
 #include "solved.hpp"
 
@@ -134,4 +136,55 @@ TEST_CASE("sun: the error of its light on a plate is measured and holds the trut
   }
   // Intervals of 95 %: 383 of 400 were seen to hold. Fewer than 15 of 20 do less often than once in 3000 runs.
   CHECK(held >= 15);
+}
+
+TEST_CASE("sun: one of four rounded corners shines past a thing of many faces, and does not hide itself", "[direct]") {
+  const auto seed = std::random_device{}();
+  INFO("seed " << seed);
+  Random random{seed, 3};
+  int lit = 0, dark = 0;
+  for (int trial = 0; trial < 40; ++trial) {
+    const double distance = std::pow(10.0, 1.0 + 4.0 * random.uniform()), half = distance * std::pow(10.0, -3.0 + 1.5 * random.uniform());
+    const double height = 0.3 + 0.6 * random.uniform(), around = 2.0 * std::numbers::pi * random.uniform();
+    const glm::dvec3 towards{std::sqrt(1.0 - height * height) * glm::dvec2{std::cos(around), std::sin(around)}, height};
+    const glm::dvec3 u = glm::normalize(glm::cross(towards, {0.3, 0.2, 1.0})), v = glm::cross(towards, u);
+    std::vector<glm::dvec3> corners;
+    const double digits = std::pow(10.0, std::round(9.0 - std::log10(distance)));  // nine or ten, as programs write them
+    for (const glm::dvec2& k : {glm::dvec2{1, 1}, {1, -1}, {-1, -1}, {-1, 1}}) {
+      corners.push_back(glm::round(digits * (distance * towards + half * (k.x * u + k.y * v))) / digits);
+    }
+    // A tube on the floor, open above, in three rings of faces: more than a list of what stands between holds (raycast::OccluderList).
+    std::vector<glm::dvec3> positions;
+    std::vector<std::vector<std::uint32_t>> faces;
+    const std::uint32_t sides = 24 + static_cast<std::uint32_t>(16.0 * random.uniform());
+    for (std::uint32_t i = 0; i < sides; ++i) {
+      const double angle = 2.0 * std::numbers::pi * i / sides;
+      for (const double z : {0.0, 0.1, 0.2, 0.3}) {
+        positions.emplace_back((0.2 + 0.2 * z) * std::cos(angle), (0.2 + 0.2 * z) * std::sin(angle), z);
+      }
+      const std::uint32_t next = (i + 1) % sides;
+      for (std::uint32_t k = 0; k < 3; ++k) { faces.push_back({4 * i + k, 4 * next + k, 4 * next + k + 1, 4 * i + k + 1}); }
+    }
+    Scene scene{{{"grey", Color{0.5}, Color{0.0}}, {"sun", Color{0.0}, Color{1.0}}}, {}};
+    scene.objects = {scenes::square("floor", {0, 0, 0}, 1.0, true), scenes::object("sun", scenes::polygon(corners), 1),
+                     scenes::object("tube", raycast::Mesh::make(positions, faces).object, 0)};
+    const scenes::World world{scene};
+    for (int k = 0; k < 20; ++k) {
+      const glm::dvec3 x{1.2 * random.uniform() - 0.6, 1.2 * random.uniform() - 0.6, 0.0};
+      int open = 0;
+      for (const glm::dvec3& corner : corners) {
+        open += world.prepared->objects.occluded({world.in_frame(x), world.in_frame(corner) - world.in_frame(x)}, 0, 1) ? 0 : 1;
+      }
+      if (glm::length(x) < 0.3 || (open != 0 && open != 4)) { continue; }  // in the tube, or at the edge of its shadow
+      auto region = world.region(x, 0.4 * random.uniform());
+      REQUIRE(region.size() <= 1);
+      const double visible = region.size() == 1 ? region.visible(0, world.in_frame(x), {0, 0, 1}) : 0.0;
+      CAPTURE(trial, distance, half, sides, x.x, x.y);
+      // The tube is wider than the sun looks, so between corners that are all open, or all hidden, no part of it is the other.
+      CHECK(std::abs(visible - (open == 4 ? 1.0 : 0.0)) < 1e-6);
+      (open == 4 ? lit : dark) += 1;
+    }
+  }
+  CHECK(lit > 100);
+  CHECK(dark > 20);
 }
