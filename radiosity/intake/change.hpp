@@ -16,6 +16,7 @@ enum class ChangeKind : unsigned char {
   no_area,      // polygons without area: left out
   sliver,       // polygons narrower than the tolerance: left out; size: the largest width
   duplicate,    // polygons that coincide with another one, or with its back if that is not seen: left out
+  unfolded,     // concave polygons that were divided as if they were convex (unfold.hpp): made whole
   not_planar,   // polygons divided into triangles; size: the largest distance of a corner from its plane
   crossing,     // polygons that cross themselves: divided into triangles
   touching,     // polygons that touch themselves, as on a bridge edge to a hole, or have very many corners: divided into triangles
@@ -31,7 +32,9 @@ enum class ChangeKind : unsigned char {
   lamp_laid,    // vertices of lamps beside a wall: moved onto it; size: the largest distance
   lamp_turned,  // lamps on a wall, or close in front of it, and facing it: turned over
   lamp_halved,  // lamps that emit on both sides, one of them close in front of a surface: this side is left out
+  lamp_front,   // open lamps of which it is not known which side shines: their front shines
   decal_laid,   // vertices of flat surfaces beside a larger one: moved onto it; size: the largest distance
+  overlapping,  // polygons of a surface that lie partly on larger ones in the same plane: made surfaces of their own
   dividing,     // polygons with light on both sides, such as walls between rooms: made to reflect on both
   both_sides,   // surfaces of mixed orientation: made to reflect on both sides
   open,         // open surfaces of which it is not known which side is seen: made to reflect on both sides

@@ -15,6 +15,7 @@
 #include <radiosity/intake/objects.hpp>
 #include <radiosity/intake/t_joints.hpp>
 #include <radiosity/intake/topology.hpp>
+#include <radiosity/intake/unfold.hpp>
 #include <radiosity/intake/weld.hpp>
 #include <radiosity/intake/working.hpp>
 
@@ -23,6 +24,7 @@ namespace radiosity {
 HALFLIGHT_INLINE Intake take_in(const PolygonView& input, std::span<const Material> materials, const IntakeOptions& options) {
   intake::Working mesh;
   intake::weld(input, materials, options.weld, mesh);
+  intake::unfold_fans(mesh);
   intake::drop_degenerate(mesh);
   intake::drop_duplicates(mesh);
   intake::match_diagonals(mesh);

@@ -9,6 +9,7 @@
 // The steps, each in a file of its own:
 //     weld       vertices within `weld` of each other become one                              weld.hpp
 //     backs      two coincident faces of opposite orientation become one with two sides        backs.hpp
+//     unfold     concave polygons that were divided as if they were convex are made whole      unfold.hpp
 //     clean      removes repeated corners, faces without area, slivers and duplicates; cuts    clean.hpp
 //                faces that are not planar or cross themselves along the best diagonals
 //     t_joints   a vertex on the edge of another face becomes a corner of that face            t_joints.hpp
@@ -20,6 +21,7 @@
 //     merge      coplanar neighbours of one material become one face (fewer input faces)       merge.hpp
 //     lamps      lamps that lie flush in a wall shine away from it                             lamps.hpp
 //     decals     flat surfaces that lie on a larger one cover it                               decals.hpp
+//     layers     of polygons of one surface that lie partly on each other the smaller is seen  layers.hpp
 //     objects    closed shells become solids or rooms, all else surfaces with one or two       objects.hpp, shells.hpp,
 //                sides                                                                         open_surfaces.hpp
 //

@@ -23,6 +23,7 @@
 #include <radiosity/intake/backs.hpp>
 #include <radiosity/intake/decals.hpp>
 #include <radiosity/intake/lamps.hpp>
+#include <radiosity/intake/layers.hpp>
 #include <radiosity/intake/open_surfaces.hpp>
 #include <radiosity/intake/shells.hpp>
 
@@ -41,6 +42,7 @@ class ObjectMaker {
         decals_(lay_decals(mesh, topology, materials)),
         shells_(mesh, topology, materials, options) {
     local_.assign(topology.vertices, none);
+    overlaps_.assign(mesh.faces.size(), false);
     face_of_.resize(topology.mate.size());
     for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) {
       for (std::uint32_t s = topology.first[f]; s < topology.first[f + 1]; ++s) { face_of_[s] = f; }
@@ -51,11 +53,16 @@ class ObjectMaker {
     turn_lamps(mesh, topology, materials, flush_, two_sided, shells_);
     mark_decals(mesh, topology, decals_, two_sided, shells_);
     for (const Component& component : shells_.components()) {
-      if (!component.both_sides || component.one_sided) { continue; }
+      if (component.role != Role::surface || component.one_sided) { continue; }
       const auto polygon = [&](std::uint32_t f) { return mesh.faces[f].polygon; };
       const auto first =
           std::min_element(component.faces.begin(), component.faces.end(), [&](auto a, auto b) { return polygon(a) < polygon(b); });
-      mesh.changed(ChangeKind::open, polygon(*first));
+      const bool any_back = std::any_of(component.faces.begin(), component.faces.end(), [&](std::uint32_t f) { return two_sided[f]; });
+      if (component.both_sides) {
+        mesh.changed(ChangeKind::open, polygon(*first));
+      } else if (options.open_sides_unknown && !component.flush && !any_back && shells_.shines(component)) {
+        mesh.changed(ChangeKind::lamp_front, polygon(*first));
+      }
     }
   }
 
@@ -181,7 +188,16 @@ class ObjectMaker {
       add({faces.back()}, Role::surface, back);
       faces.pop_back();
     }
-    if (!faces.empty()) { add(faces, Role::surface, back); }
+    if (faces.empty()) { return; }
+    const std::vector<std::vector<std::uint32_t>> layers = layers_of(mesh_, faces);
+    for (const std::vector<std::uint32_t>& layer : layers) {
+      for (const std::uint32_t f : layer) {
+        if (&layer == &layers.front() || overlaps_[f]) { continue; }
+        overlaps_[f] = true;  // once for both sides
+        mesh_.changed(ChangeKind::overlapping, mesh_.faces[f].polygon);
+      }
+      add(layer, Role::surface, back);
+    }
   }
 
   // The faces of a room are reversed like those of a back, because its normals are those of the solid whose inside it is.
@@ -244,6 +260,7 @@ class ObjectMaker {
   Shells shells_;
   std::vector<std::uint32_t> local_;    // by vertex: its number in the current object
   std::vector<std::uint32_t> face_of_;  // by side
+  std::vector<bool> overlaps_;          // by face: does it lie partly on a larger one in the same plane?
   std::vector<SceneObject> objects_;
   std::vector<std::uint32_t> group_of_;             // by object
   std::vector<std::vector<std::uint32_t>> others_;  // by object: further groups of its faces
