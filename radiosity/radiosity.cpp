@@ -15,7 +15,6 @@
 #include <radiosity/result/out_of_memory.hpp>
 #include <radiosity/result/outcome.hpp>
 #include <radiosity/result/own_unit.hpp>
-#include <radiosity/result/stopwatch.hpp>
 #include <radiosity/run/solve_at.hpp>
 #include <radiosity/scene/frame.hpp>
 #include <radiosity/scene/light_unit.hpp>
@@ -29,20 +28,14 @@ namespace detail {
 // As solve(), for valid options and with light scaled to a unit of its own (light_unit.hpp).
 HALFLIGHT_INLINE Outcome solve_in_rounds(const Scene& scene, const Options& options, const Control& control) {
   if (!options.error) { return solve_within_memory(scene, options, control); }
-  const bool of_picture = static_cast<bool>(control.picture_error);
-  Outcome outcome = solve_to_error(
-      options, of_picture, [&](const Options& round, std::uint64_t held) { return solve_within_memory(scene, round, control, held); });
-  if (of_picture && outcome.solution && !outcome.solution->audit.converged && !control.cancelled()) {
-    // The audits of the rounds used just enough pixels to decide that the error is too large; measuring how large it is takes more.
-    Audit& audit = outcome.solution->audit;
-    std::vector<StageTime> stages;
-    Stopwatch watch{stages};
-    const AuditGoal goal = goal_to_know(audit, options.audit_points, audit.picture_error ? audit.picture_error->picture_work : 0);
-    const auto again = control.picture_error(outcome.solution->mesh, outcome.solution->frame, goal);
-    if (again) { audit.picture_error = again; }
-    watch.lap("audit");
-    add_times(audit.stages, stages);
-  }
+  const auto solve_round = [&](const Options& round, std::uint64_t held) { return solve_within_memory(scene, round, control, held); };
+  if (!control.picture_error) { return solve_to_error(options, solve_round); }
+  Outcome outcome = solve_to_error(options, solve_round, [&](const Solution& solution) {
+    const std::optional<PictureError>& so_far = solution.audit.picture_error;
+    const AuditGoal goal = goal_to_know(solution.audit, options.audit_points, so_far ? so_far->picture_work : 0);
+    return control.picture_error(solution.mesh, solution.frame, goal);
+  });
+  if (outcome.solution && control.cancelled()) { outcome.solution->audit.interrupted = true; }  // also during the last audit
   return outcome;
 }
 

@@ -155,7 +155,7 @@ ExitCode draw_light(const RenderOptions& options, const radiosity::Control& cont
   if (!picture) { return report_failure({radiosity::Failure::Kind::cancelled, {}}, options.scene); }
   std::string text;
   if (options.solver.audit_points > 0) {
-    const auto error = artist.audit(*picture, tone, radiosity::goal_to_know({}, options.solver.audit_points, artist.worth({})), control);
+    const auto error = artist.audit(*picture, tone, radiosity::goal_to_know({}, options.solver.audit_points, artist.worth()), control);
     if (error) { text = picture_error_text(*error, camera.name); }
   }
   const std::vector<RenderOutput> outputs = encode(options, *picture, tone);
@@ -224,7 +224,7 @@ ExitCode run(const RenderOptions& options) {
       const radiosity::Tone tone = artist.tone(mesh);
       const auto picture = artist.draw(mesh, frame, tone, control);
       if (!picture) { return std::nullopt; }
-      return artist.audit(*picture, tone, goal, control);
+      return artist.audit(*picture, tone, goal.wanted ? goal.and_picture(3 * artist.worth()) : goal, control);
     };
   }
   const bool only_pictures = has_picture(options) && std::all_of(options.outputs.begin(), options.outputs.end(), is_picture);

@@ -138,26 +138,40 @@ radiosity::Tone Artist::tone(const radiosity::Mesh& mesh) const {
   return {automatic ? factor * radiosity::automatic_exposure(mesh, file_.scene, view_) : factor, options_.tone};
 }
 
-std::optional<radiosity::Picture> Artist::draw(const radiosity::Mesh& mesh, const radiosity::Frame& frame, const radiosity::Tone& tone,
-                                               const radiosity::Control& control) const {
-  if (options_.method == PictureMethod::mesh) { return radiosity::draw(mesh, view_, tone, 4, control.cancel); }
-  const radiosity::FinalGather light{file_.scene, mesh, frame};
-  return radiosity::draw(light, view_, tone, options_.solver.threads, control);
+const radiosity::Picture* Artist::draw(const radiosity::Mesh& mesh, const radiosity::Frame& frame, const radiosity::Tone& tone,
+                                       const radiosity::Control& control) {
+  Light light{mesh.corners.size(), radiosity::Color{0.0}, tone.exposure};
+  for (const radiosity::MeshCorner& corner : mesh.corners) { light.sum += corner.radiosity; }
+  if (!picture_ || !(light == shown_)) {
+    shown_ = light;
+    if (options_.method == PictureMethod::mesh) {
+      picture_ = radiosity::draw(mesh, view_, tone, 4, control.cancel);
+    } else {
+      picture_ = radiosity::draw(radiosity::FinalGather{file_.scene, mesh, frame}, view_, tone, options_.solver.threads, control);
+    }
+  }
+  return picture_ ? &*picture_ : nullptr;
 }
 
-std::optional<radiosity::PictureError> Artist::audit(const radiosity::Picture& picture, const radiosity::Tone& tone,
-                                                     const radiosity::AuditGoal& goal, const radiosity::Control& control) {
+const radiosity::PictureAudit* Artist::meter() {
   if (!asked_) {
     audit_ = radiosity::PictureAudit::make(file_.scene);
     asked_ = true;
   }
-  if (!audit_) { return std::nullopt; }
-  return audit_->measure(radiosity::audited(picture, view_, tone), goal, options_.solver.threads, options_.solver.seed, control);
+  return audit_ ? &*audit_ : nullptr;
 }
 
-std::uint64_t Artist::worth(const radiosity::Audit& audit) const {
-  if (options_.method == PictureMethod::mesh) { return 0; }
-  return radiosity::picture_worth(audit.ray_work, view_.size.width, view_.size.height);
+std::optional<radiosity::PictureError> Artist::audit(const radiosity::Picture& picture, const radiosity::Tone& tone,
+                                                     const radiosity::AuditGoal& goal, const radiosity::Control& control) {
+  const radiosity::PictureAudit* const its = meter();
+  if (!its) { return std::nullopt; }
+  return its->measure(radiosity::audited(picture, view_, tone), goal, options_.solver.threads, options_.solver.seed, control);
+}
+
+std::uint64_t Artist::worth() {
+  const radiosity::PictureAudit* const its = meter();
+  if (!its || options_.method == PictureMethod::mesh) { return 0; }
+  return radiosity::picture_worth(its->ray_work(), view_.size.width, view_.size.height);
 }
 
 std::vector<RenderOutput> encode(const RenderOptions& options, const radiosity::Picture& picture, const radiosity::Tone& tone) {
@@ -170,22 +184,22 @@ std::vector<RenderOutput> encode(const RenderOptions& options, const radiosity::
 
 namespace {
 
-// Draws the picture, and enters its time and error in the report. Nothing if interrupted.
-std::optional<radiosity::Picture> drawn(Artist& artist, const radiosity::Solution& solution, const radiosity::Tone& tone,
-                                        const radiosity::Control& control, Report& report) {
+// Draws the picture, and enters its time and error in the report. Null if interrupted.
+const radiosity::Picture* drawn(Artist& artist, const radiosity::Solution& solution, const radiosity::Tone& tone,
+                                const radiosity::Control& control, Report& report) {
   const RenderOptions& options = artist.options();
   std::vector<radiosity::StageTime> stages;
   radiosity::detail::Stopwatch watch(stages);
   const radiosity::Mesh& mesh = options.method == PictureMethod::mesh ? solution.shown() : solution.mesh;
-  std::optional<radiosity::Picture> picture = artist.draw(mesh, solution.frame, tone, control);
-  if (!picture) { return std::nullopt; }
+  const radiosity::Picture* const picture = artist.draw(mesh, solution.frame, tone, control);
+  if (!picture) { return nullptr; }
   report.picture = PictureReport{artist.camera().name, artist.size().width, artist.size().height, options.method};
   watch.lap("picture");
   if (std::string sentence = warning_of_dark_picture(*picture, artist.file(), artist.view()); !sentence.empty()) {
     report.audit.warnings.push_back(std::move(sentence));
   }
   if (!report.audit.picture_error && options.solver.audit_points > 0) {
-    const radiosity::AuditGoal goal = radiosity::goal_to_know(report.audit, options.solver.audit_points, artist.worth(report.audit));
+    const radiosity::AuditGoal goal = radiosity::goal_to_know(report.audit, options.solver.audit_points, artist.worth());
     report.audit.picture_error = artist.audit(*picture, tone, goal, control);
     watch.lap("picture audit");
     report.audit.interrupted = report.audit.interrupted || control.cancelled();  // the picture is complete, but its error is not measured
@@ -208,7 +222,7 @@ std::optional<std::vector<RenderOutput>> encode(Artist& artist, const radiosity:
   report.exposure = tone.exposure;
   report.tone = tone.curve;
   report.automatic_exposure = !options.exposure || options.exposure->of_automatic;
-  const std::optional<radiosity::Picture> picture = has_picture(options) ? drawn(artist, solution, tone, control, report) : std::nullopt;
+  const radiosity::Picture* const picture = has_picture(options) ? drawn(artist, solution, tone, control, report) : nullptr;
   if (has_picture(options) && !picture) { return std::nullopt; }
   std::optional<ExportMesh> exported;
   const auto is_exported = [&](const std::string& path) {

@@ -3,6 +3,7 @@
 
 // The options of `halflight render`, and its outputs: the picture, drawn and audited, the mesh, and the report.
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -95,21 +96,35 @@ class Artist {
   [[nodiscard]] radiosity::Viewpoint viewpoint() const {
     return {view_.eye, [view = view_](const glm::dvec3& p, const glm::dvec3& n) { return view.share(p, n); }, view_.pixel_area()};
   }
-  // The effort that went into the picture, in rays (audit_effort.hpp).
-  [[nodiscard]] std::uint64_t worth(const radiosity::Audit& audit) const;
-  // Nothing if interrupted.
-  [[nodiscard]] std::optional<radiosity::Picture> draw(const radiosity::Mesh& mesh, const radiosity::Frame& frame,
-                                                       const radiosity::Tone& tone, const radiosity::Control& control) const;
+  // The effort that goes into a picture, in rays (audit_effort.hpp).
+  [[nodiscard]] std::uint64_t worth();
+  // Null if interrupted; valid until the next call. A picture of the same light as the last one, as after the rounds towards a target, is
+  // not drawn again.
+  [[nodiscard]] const radiosity::Picture* draw(const radiosity::Mesh& mesh, const radiosity::Frame& frame, const radiosity::Tone& tone,
+                                               const radiosity::Control& control);
   [[nodiscard]] std::optional<radiosity::PictureError> audit(const radiosity::Picture& picture, const radiosity::Tone& tone,
                                                              const radiosity::AuditGoal& goal, const radiosity::Control& control);
 
  private:
+  // What a picture shows; two solutions with the same sum of all radiosities, to the last bit, are the same.
+  struct Light {
+    std::size_t corners = 0;
+    radiosity::Color sum{0.0};
+    double exposure = 1.0;
+    friend bool operator==(const Light&, const Light&) = default;
+  };
+
+  // Null for a scene whose pictures cannot be audited.
+  [[nodiscard]] const radiosity::PictureAudit* meter();
+
   const RenderOptions& options_;
   const SceneFile& file_;
   const radiosity::Camera& camera_;
   radiosity::View view_;
   std::optional<radiosity::PictureAudit> audit_;
   bool asked_ = false;
+  Light shown_;
+  std::optional<radiosity::Picture> picture_;
 };
 
 struct RenderOutput {

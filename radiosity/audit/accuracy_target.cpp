@@ -112,27 +112,41 @@ HALFLIGHT_INLINE Failure not_measurable(bool of_picture) {
                         "epsilon instead of an error"}};
 }
 
-// Records in `best` why no further solution follows.
-HALFLIGHT_INLINE void end_with(const Failure& failure, Audit& best) {
-  best.interrupted = failure.kind == Failure::Kind::cancelled;
-  if (failure.kind == Failure::Kind::out_of_memory) {
-    best.shortage = failure.sentences.empty() ? "no more memory" : failure.sentences.front();
-  }
+// What was short, of a failure for lack of memory.
+HALFLIGHT_INLINE std::string sentence_of(const Failure& shortage) {
+  return shortage.sentences.empty() ? "no more memory" : shortage.sentences.front();
 }
 
-HALFLIGHT_INLINE Outcome solve_to_error(const Options& options, bool of_picture,
-                                        const std::function<Outcome(const Options&, std::uint64_t held)>& solve_round) {
+// Measures the picture of the solution, and returns its error, if that is possible.
+HALFLIGHT_INLINE std::optional<ErrorEstimate> measured_again(
+    Solution& solution, const std::function<std::optional<PictureError>(const Solution&)>& measure_picture,
+    std::vector<StageTime>& stages) {
+  std::vector<StageTime> times;
+  Stopwatch watch{times};
+  const std::optional<PictureError> again = measure_picture(solution);
+  watch.lap("audit");
+  add_times(stages, times);
+  if (!again) { return std::nullopt; }
+  solution.audit.picture_error = again;
+  return again->error;
+}
+
+HALFLIGHT_INLINE Outcome solve_to_error(const Options& options,
+                                        const std::function<Outcome(const Options&, std::uint64_t held)>& solve_round,
+                                        const std::function<std::optional<PictureError>(const Solution&)>& measure_picture) {
   const double wanted = *options.error;
+  const bool of_picture = static_cast<bool>(measure_picture);
   Rounds rounds{options, of_picture};
   std::vector<StageTime> stages;
   Outcome best;
   std::optional<ErrorEstimate> best_error;
-  std::string ended_by;
+  std::string ended_by, later_shortage;  // later_shortage: of a round after the best one; it matters only if the target is missed
   for (bool over = false; !over;) {
     Outcome outcome = solve_round(rounds.options(), best.solution ? bytes_of(*best.solution) : 0);
     if (!outcome.solution) {
       if (!best.solution) { return outcome; }
-      end_with(outcome.failure, best.solution->audit);
+      best.solution->audit.interrupted = outcome.failure.kind == Failure::Kind::cancelled;
+      if (outcome.failure.kind == Failure::Kind::out_of_memory) { later_shortage = sentence_of(outcome.failure); }
       break;
     }
     const Audit& audit = outcome.solution->audit;
@@ -145,12 +159,19 @@ HALFLIGHT_INLINE Outcome solve_to_error(const Options& options, bool of_picture,
     if (!best.solution || !best_error || (error && !(best_error->high < error->low))) {
       best = std::move(outcome);
       best_error = error;
+    } else {
+      later_shortage = std::move(outcome.solution->audit.shortage);
     }
     best.solution->audit.interrupted = best.solution->audit.interrupted || interrupted;
   }
   Audit& audit = best.solution->audit;
+  if (of_picture && !audit.interrupted && !(best_error && best_error->within(wanted))) {
+    const std::optional<ErrorEstimate> again = measured_again(*best.solution, measure_picture, stages);
+    if (again) { best_error = again; }
+  }
   audit.target_missed = !(best_error && best_error->within(wanted));
   if (audit.target_missed) {
+    if (audit.shortage.empty()) { audit.shortage = std::move(later_shortage); }
     audit.rounds_ended_by = audit.interrupted ? "an interruption" : !audit.shortage.empty() ? "want of memory" : ended_by;
   }
   audit.converged = audit.converged && !audit.interrupted && audit.shortage.empty() && !audit.target_missed;

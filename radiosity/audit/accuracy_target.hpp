@@ -11,10 +11,15 @@
 // not timed, and does not depend on the target. The run then returns its last solution, unless an earlier one is better by more than the
 // uncertainty of both audits. The size of an audit depends on the target. So that the rounds do not, they are planned and compared by a
 // separate set of points (Audit::steering_error, PictureError::steering).
+//
+// The audits of the rounds use just enough pixels to decide that the error of a picture is too large. Knowing how large it is takes more,
+// so the picture that misses its target is measured again at the end; if that shows that it meets the target after all, it does.
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 
+#include <radiosity/result/error_estimate.hpp>
 #include <radiosity/result/outcome.hpp>
 #include <radiosity/scene/options.hpp>
 
@@ -23,9 +28,9 @@ namespace radiosity {
 namespace detail {
 
 // `solve_round` solves at the fineness of the given options and measures the errors; `held`: bytes that an earlier solution
-// occupies meanwhile.
-[[nodiscard]] Outcome solve_to_error(const Options& options, bool of_picture,
-                                     const std::function<Outcome(const Options&, std::uint64_t held)>& solve_round);
+// occupies meanwhile. `measure_picture`: if the target is that of a picture, measures its error with the effort of a run without target.
+[[nodiscard]] Outcome solve_to_error(const Options& options, const std::function<Outcome(const Options&, std::uint64_t held)>& solve_round,
+                                     const std::function<std::optional<PictureError>(const Solution&)>& measure_picture = {});
 
 }  // namespace detail
 

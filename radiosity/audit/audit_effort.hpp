@@ -11,9 +11,11 @@
 //   an audit without a target    about as much time as what it judges (the solution, and for a picture that, too), but at least 5000 rays
 //                                a point (three seconds for 2000 points) and at most 120 million; the second half of it is used only if the
 //                                interval comes out wider than the error itself and the rays would narrow it
-//   a round towards a target     as much as the solution of that round was worth
-//   confirming the target        twice as much, or rays_that_show if that is more; only if the pilot finds the target met. If a second
-//                                pilot then finds it missed, an audit of about the size of that pilot follows
+//   a round towards a target     as much as what it judges was worth
+//   confirming the target        twice as much, where rays_that_show are the least for the solution; only if the pilot finds the target
+//                                met. If a second pilot then finds it missed, an audit of about the size of that pilot follows
+//   a target missed in the end   as an audit without a target, once more from fresh points, for a picture; so a target is met by chance
+//                                about twice as often as the interval says
 // The price of a point is known from the pilot alone, to about a quarter where few points receive light. The budget is exceeded only by
 // the minimum that gives an interval at all: a quarter of the points, with four paths for each of two estimates.
 //
@@ -50,6 +52,14 @@ struct AuditGoal {
     const double part = steady(1.0 / work);
     const auto fewer = [part](std::uint64_t count) { return static_cast<std::uint64_t>(static_cast<double>(count) * part); };
     return {points, fewer(rays), wanted, fewer(rays_to_show), fewer(rays_anyhow), fewer(rays_if_wide), fewer(rays_to_steer)};
+  }
+
+  // The goal of a round towards a target when a picture worth `picture` is judged: its audit may take as long as that took, too.
+  [[nodiscard]] AuditGoal and_picture(std::uint64_t picture) const {
+    AuditGoal goal = *this;
+    goal.rays += picture;
+    goal.rays_to_show += 2 * picture;
+    return goal;
   }
 };
 

@@ -57,7 +57,7 @@ HALFLIGHT_INLINE std::optional<PictureError> PictureAudit::measure(const ShownPi
   std::uint64_t keys = 0;
   Measured measured;
   std::uint64_t rays = 0;  // including all pilots
-  const double price = prepared_->objects.ray_work() + prepared_->objects.walk_work();
+  const double price = ray_work();
   const PixelDraw draw = draw_of(picture, goal.among_rays_of(price).rays / 8, rays, control);
   // A ray at the visible points may cost more or less than the mean over the scene, so it is priced again there.
   const bool may_aim = goal.among_rays_of(price).rays >= least_rays_to_aim;

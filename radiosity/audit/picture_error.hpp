@@ -54,6 +54,9 @@ class PictureAudit {
   [[nodiscard]] std::optional<PictureError> measure(const ShownPicture& picture, const AuditGoal& goal, unsigned threads,
                                                     std::uint64_t seed, const Control& control = {}) const;
 
+  // The cost of a ray of a path, relative to a scene of few polygons.
+  [[nodiscard]] double ray_work() const { return prepared_->objects.ray_work() + prepared_->objects.walk_work(); }
+
  private:
   struct Sample {
     std::uint32_t x = 0, y = 0;

@@ -191,7 +191,7 @@ TEST_CASE("a target out of reach ends within the stated work, and after the same
       std::uint64_t work = 0, rounds = 0;
       double error = 0.5;
       const radiosity::Options options{.error = wanted};
-      const radiosity::Outcome outcome = radiosity::detail::solve_to_error(options, true, [&](const radiosity::Options& round, auto) {
+      const auto solve_round = [&](const radiosity::Options& round, auto) {
         CHECK(round.memory.has_value());
         radiosity::Random gain{seed, key, rounds};
         error *= 0.8 + 0.1 * gain.uniform();
@@ -206,7 +206,9 @@ TEST_CASE("a target out of reach ends within the stated work, and after the same
         work += audit.links + picture_work;
         ++rounds;
         return radiosity::Outcome{std::move(solution), {}};
-      });
+      };
+      const auto as_before = [](const radiosity::Solution& solution) { return solution.audit.picture_error; };
+      const radiosity::Outcome outcome = radiosity::detail::solve_to_error(options, solve_round, as_before);
       REQUIRE(outcome.solution);
       CHECK((rounds == 1 || work <= 40'000'000));
       return std::pair{rounds, outcome.solution->audit};
