@@ -62,22 +62,19 @@ class Layering {
     tree_ = raycast::Bvh{boxes_};
   }
 
-  [[nodiscard]] std::vector<std::vector<std::uint32_t>> run() {
-    std::vector<std::size_t> order(faces_.size()), layer(faces_.size(), 0);
+  [[nodiscard]] std::vector<std::uint32_t> run() {
+    std::vector<std::size_t> order(faces_.size());
+    std::vector<std::uint32_t> layer(faces_.size(), 0);
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return areas_[a] > areas_[b]; });
     std::vector<bool> placed(faces_.size(), false);
-    std::size_t layers = 1;
     for (const std::size_t i : order) {
       for_each_beside(i, [&](std::size_t k) {
         if (placed[k] && layer[k] >= layer[i] && overlap(k, i)) { layer[i] = layer[k] + 1; }
       });
       placed[i] = true;
-      layers = std::max(layers, layer[i] + 1);
     }
-    std::vector<std::vector<std::uint32_t>> result(layers);
-    for (std::size_t i = 0; i < faces_.size(); ++i) { result[layer[i]].push_back(faces_[i]); }
-    return result;
+    return layer;
   }
 
  private:
@@ -129,8 +126,8 @@ class Layering {
 
 }  // namespace detail
 
-HALFLIGHT_INLINE std::vector<std::vector<std::uint32_t>> layers_of(Working& mesh, std::span<const std::uint32_t> faces) {
-  if (faces.size() < 2) { return {{faces.begin(), faces.end()}}; }
+HALFLIGHT_INLINE std::vector<std::uint32_t> layers_of(Working& mesh, std::span<const std::uint32_t> faces) {
+  if (faces.size() < 2) { return std::vector<std::uint32_t>(faces.size(), 0); }
   return detail::Layering(mesh, faces).run();
 }
 

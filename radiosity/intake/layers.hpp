@@ -13,9 +13,9 @@
 
 namespace radiosity::intake {
 
-// The faces by layer, each in their given order. Faces of one layer do not overlap in one plane, whatever their orientations, by more than
-// a strip of the tolerance of welding. Time: n log n, if few bounding boxes meet.
-[[nodiscard]] std::vector<std::vector<std::uint32_t>> layers_of(Working& mesh, std::span<const std::uint32_t> faces);
+// The layer of each face, from 0 on. Faces of one layer do not overlap in one plane, whatever their orientations, by more than a strip of
+// the tolerance of welding. Time: n log n, if few bounding boxes meet.
+[[nodiscard]] std::vector<std::uint32_t> layers_of(Working& mesh, std::span<const std::uint32_t> faces);
 
 }  // namespace radiosity::intake
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <numeric>
 #include <span>
 #include <string>
@@ -42,7 +43,7 @@ class ObjectMaker {
         decals_(lay_decals(mesh, topology, materials)),
         shells_(mesh, topology, materials, options) {
     local_.assign(topology.vertices, none);
-    overlaps_.assign(mesh.faces.size(), false);
+    layer_.assign(mesh.faces.size(), 0);
     face_of_.resize(topology.mate.size());
     for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) {
       for (std::uint32_t s = topology.first[f]; s < topology.first[f + 1]; ++s) { face_of_[s] = f; }
@@ -52,7 +53,8 @@ class ObjectMaker {
     const std::vector<bool> two_sided = faces_with_backs();
     turn_lamps(mesh, topology, materials, flush_, two_sided, shells_);
     mark_decals(mesh, topology, decals_, two_sided, shells_);
-    for (const Component& component : shells_.components()) {
+    for (std::uint32_t c = 0; c < shells_.components().size(); ++c) {
+      const Component& component = shells_.components()[c];
       if (component.role != Role::surface || component.one_sided) { continue; }
       const auto polygon = [&](std::uint32_t f) { return mesh.faces[f].polygon; };
       const auto first =
@@ -60,7 +62,7 @@ class ObjectMaker {
       const bool any_back = std::any_of(component.faces.begin(), component.faces.end(), [&](std::uint32_t f) { return two_sided[f]; });
       if (component.both_sides) {
         mesh.changed(ChangeKind::open, polygon(*first));
-      } else if (options.open_sides_unknown && !component.flush && !any_back && shells_.shines(component)) {
+      } else if (options.open_sides_unknown && !component.flush && !shells_.turned(c) && !any_back && shells_.shines(component)) {
         mesh.changed(ChangeKind::lamp_front, polygon(*first));
       }
     }
@@ -71,8 +73,7 @@ class ObjectMaker {
     for (std::uint32_t g = 0; g < groups.size(); ++g) {
       group_ = g;
       for (const Component* const component : groups[g].closed) { add_closed(*component); }
-      add_surface(groups[g].front, false);
-      add_surface(groups[g].back, true);
+      add_surfaces(groups[g].front, groups[g].back);
     }
     // After the surfaces on which they lie, so that they cover these; and the smaller after the larger, as paper on a rug.
     std::vector<std::uint32_t> order(groups.size());
@@ -80,8 +81,7 @@ class ObjectMaker {
     std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return groups[a].largest_flush > groups[b].largest_flush; });
     for (const std::uint32_t g : order) {
       group_ = g;
-      add_surface(groups[g].flush_front, false);
-      add_surface(groups[g].flush_back, true);
+      add_surfaces(groups[g].flush_front, groups[g].flush_back);
     }
     name_objects();
     return {std::move(objects_), std::move(sheets_), {shells_.rooms().begin(), shells_.rooms().end()}};
@@ -188,15 +188,25 @@ class ObjectMaker {
       add({faces.back()}, Role::surface, back);
       faces.pop_back();
     }
-    if (faces.empty()) { return; }
-    const std::vector<std::vector<std::uint32_t>> layers = layers_of(mesh_, faces);
-    for (const std::vector<std::uint32_t>& layer : layers) {
-      for (const std::uint32_t f : layer) {
-        if (&layer == &layers.front() || overlaps_[f]) { continue; }
-        overlaps_[f] = true;  // once for both sides
-        mesh_.changed(ChangeKind::overlapping, mesh_.faces[f].polygon);
-      }
-      add(layer, Role::surface, back);
+    if (!faces.empty()) { add(faces, Role::surface, back); }
+  }
+
+  // The surfaces of a group, and the backs of those faces that show them; one layer after the other, because later objects are seen.
+  void add_surfaces(const std::vector<std::uint32_t>& front, const std::vector<std::uint32_t>& back) {
+    const std::vector<std::uint32_t> layer = layers_of(mesh_, front);
+    const std::uint32_t layers = layer.empty() ? 0 : *std::max_element(layer.begin(), layer.end()) + 1;
+    for (std::size_t i = 0; i < front.size(); ++i) {
+      layer_[front[i]] = layer[i];
+      if (layer[i] > 0) { mesh_.changed(ChangeKind::overlapping, mesh_.faces[front[i]].polygon); }
+    }
+    const auto of_layer = [&](const std::vector<std::uint32_t>& faces, std::uint32_t k) {
+      std::vector<std::uint32_t> own;
+      std::copy_if(faces.begin(), faces.end(), std::back_inserter(own), [&](std::uint32_t f) { return layer_[f] == k; });
+      return own;
+    };
+    for (std::uint32_t k = 0; k < layers; ++k) {
+      add_surface(of_layer(front, k), false);
+      add_surface(of_layer(back, k), true);
     }
   }
 
@@ -260,7 +270,7 @@ class ObjectMaker {
   Shells shells_;
   std::vector<std::uint32_t> local_;    // by vertex: its number in the current object
   std::vector<std::uint32_t> face_of_;  // by side
-  std::vector<bool> overlaps_;          // by face: does it lie partly on a larger one in the same plane?
+  std::vector<std::uint32_t> layer_;    // by face, of those that have been added
   std::vector<SceneObject> objects_;
   std::vector<std::uint32_t> group_of_;             // by object
   std::vector<std::vector<std::uint32_t>> others_;  // by object: further groups of its faces

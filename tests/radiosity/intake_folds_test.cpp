@@ -170,7 +170,7 @@ bool holds(const std::vector<glm::dvec3>& outline, const glm::dvec3& p) {  // se
 
 }  // namespace
 
-TEST_CASE("intake: where polygons of one surface overlap in a plane one of them is seen, the smaller") {
+TEST_CASE("intake: where polygons of one surface overlap in a plane, exactly one of them is seen") {
   const unsigned seed = std::random_device{}();
   INFO("seed " << seed);
   RandomRooms random(seed);
@@ -207,7 +207,8 @@ TEST_CASE("intake: where polygons of one surface overlap in a plane one of them 
             if (builder.sheet(f) == brep::no_sheet) { continue; }
             std::vector<glm::dvec3> outline;
             for (const std::uint32_t v : builder.corners(f)) { outline.push_back(builder.position(v)); }
-            if (brep::vector_area(outline).z * up > 0.0 && holds(outline, p)) { ++own; }
+            if (!(brep::vector_area(outline).z * up > 0.0) || !holds(outline, p)) { continue; }
+            ++own;
           }
           CHECK(own <= 1);
           there += own;
@@ -219,4 +220,31 @@ TEST_CASE("intake: where polygons of one surface overlap in a plane one of them 
     }
   }
   CHECK(overlapping > 30);
+}
+
+TEST_CASE("intake: of two floors that overlap the smaller is seen, whichever comes first in the file") {
+  for (const bool smaller_first : {false, true}) {
+    for (const bool two_sided : {false, true}) {
+      Soup soup;  // they share parts of two edges, so that they are one surface
+      const auto larger = [&] { soup.polygon({{0, 0, 0}, {4, 0, 0}, {4, 3, 0}, {0, 3, 0}}); };
+      const auto smaller = [&] { soup.polygon({{0, 2, 0}, {4, 2, 0}, {4, 4, 0}, {0, 4, 0}}); };
+      if (smaller_first) { smaller(); }
+      larger();
+      if (!smaller_first) { smaller(); }
+      if (two_sided) { soup.two_sided = {1, 0}; }
+      const radiosity::Intake taken = soup.take_in();
+      CAPTURE(smaller_first, two_sided);
+      CHECK(count_of(taken, ChangeKind::overlapping) == 1);
+      std::vector<raycast::PlacedObject> placed;
+      for (const radiosity::SceneObject& object : taken.objects) { placed.emplace_back(object.shape, object.placement); }
+      const raycast::Scene scene(std::move(placed));
+      for (const double up : {1.0, -1.0}) {
+        if (up < 0.0 && !two_sided) { continue; }
+        const auto hit = scene.closest({{2.1, 2.5, up}, {0, 0, -2.0 * up}});
+        REQUIRE(hit);
+        CHECK(hit->front);
+        CHECK(soup::measure({taken.objects[hit->object]}).area == Approx(8.0));
+      }
+    }
+  }
 }

@@ -189,3 +189,32 @@ TEST_CASE("intake: a thing out of which a lamp reaches is no room while it stand
     CHECK(measure.solids == 1);
   }
 }
+
+TEST_CASE("intake: of an open lamp the report says that its side is a guess, unless the file or what is beside it tells") {
+  for (const bool up : {false, true}) {
+    for (const double gap : {0.0, 0.005, 0.5}) {  // flush in the ceiling, close below it, and well below it
+      for (const bool two_sided : {false, true}) {
+        for (const bool unknown : {false, true}) {
+          Soup soup;
+          soup.names = {"room"};
+          soup::add_box(soup, {0, 0, 0}, {4, 4, 3}, 1, true);
+          const double z = 3.0 - gap;
+          std::vector<glm::dvec3> lamp{{1, 1, z}, {1, 2, z}, {2, 2, z}, {2, 1, z}};  // seen from below
+          if (up) { std::reverse(lamp.begin(), lamp.end()); }
+          soup.names.emplace_back("lamp");
+          soup.polygon(lamp, 1);
+          if (two_sided) { soup.two_sided = {0, 1}; }
+          radiosity::IntakeOptions options;
+          options.open_sides_unknown = unknown;
+          const radiosity::Intake taken = soup.take_in(options);
+          CAPTURE(up, gap, two_sided, unknown);
+          // One that looks into a surface close by is turned, which is told instead.
+          const bool turned = up && gap < 0.1 && !two_sided;
+          CHECK(count_of(taken, ChangeKind::lamp_turned) == (turned ? 1 : 0));
+          const bool guess = unknown && !two_sided && gap > 0.0 && !turned;
+          CHECK(count_of(taken, ChangeKind::lamp_front) == (guess ? 1 : 0));
+        }
+      }
+    }
+  }
+}
