@@ -35,7 +35,9 @@ HALFLIGHT_INLINE Outcome solve_in_rounds(const Scene& scene, const Options& opti
     const AuditGoal goal = goal_to_know(solution.audit, options.audit_points, so_far ? so_far->picture_work : 0);
     return control.picture_error(solution.mesh, solution.frame, goal);
   });
-  if (outcome.solution && control.cancelled()) { outcome.solution->audit.interrupted = true; }  // also during the last audit
+  if (outcome.solution && outcome.solution->audit.target_missed && control.cancelled()) {  // also during the last audit
+    outcome.solution->audit.interrupted = true;
+  }
   return outcome;
 }
 

@@ -224,7 +224,7 @@ ExitCode run(const RenderOptions& options) {
       const radiosity::Tone tone = artist.tone(mesh);
       const auto picture = artist.draw(mesh, frame, tone, control);
       if (!picture) { return std::nullopt; }
-      return artist.audit(*picture, tone, goal.wanted ? goal.and_picture(3 * artist.worth()) : goal, control);
+      return artist.audit(*picture, tone, goal.wanted ? goal.and_picture(artist.worth()) : goal, control);
     };
   }
   const bool only_pictures = has_picture(options) && std::all_of(options.outputs.begin(), options.outputs.end(), is_picture);

@@ -11,9 +11,9 @@
 //   an audit without a target    about as much time as what it judges (the solution, and for a picture that, too), but at least 5000 rays
 //                                a point (three seconds for 2000 points) and at most 120 million; the second half of it is used only if the
 //                                interval comes out wider than the error itself and the rays would narrow it
-//   a round towards a target     as much as what it judges was worth
-//   confirming the target        twice as much, where rays_that_show are the least for the solution; only if the pilot finds the target
-//                                met. If a second pilot then finds it missed, an audit of about the size of that pilot follows
+//   a round towards a target     as much as the solution of that round was worth; for a picture, as long as drawing it took, besides
+//   confirming the target        twice as much, but for the solution at least rays_that_show; only if the pilot finds the target met. If a
+//                                second pilot then finds it missed, an audit of about the size of that pilot follows
 //   a target missed in the end   as an audit without a target, once more from fresh points, for a picture; so a target is met by chance
 //                                about twice as often as the interval says
 // The price of a point is known from the pilot alone, to about a quarter where few points receive light. The budget is exceeded only by
@@ -55,13 +55,18 @@ struct AuditGoal {
   }
 
   // The goal of a round towards a target when a picture worth `picture` is judged: its audit may take as long as that took, too.
-  [[nodiscard]] AuditGoal and_picture(std::uint64_t picture) const {
-    AuditGoal goal = *this;
-    goal.rays += picture;
-    goal.rays_to_show += 2 * picture;
-    return goal;
-  }
+  [[nodiscard]] AuditGoal and_picture(std::uint64_t picture) const;
 };
+
+// A link, or a ray of a picture, takes as long as so many path-tracing rays at least.
+inline constexpr std::uint64_t rays_a_work = 3;
+
+inline AuditGoal AuditGoal::and_picture(std::uint64_t picture) const {
+  AuditGoal goal = *this;
+  goal.rays += rays_a_work * picture;
+  goal.rays_to_show += 2 * rays_a_work * picture;
+  return goal;
+}
 
 // Number of points by which rounds are planned (Audit::steering_error); below, the number of paths at each.
 inline constexpr std::uint64_t steering_points = 256;
@@ -88,12 +93,11 @@ inline constexpr double microseconds_of_ray = 0.3;
   return static_cast<std::uint64_t>(rays_a_pixel * price * width * height);
 }
 
-// Ray limit of an audit without a target, for a solution and a picture worth `picture`: as long as both took. The factor 3: a link, or a
-// ray of a picture, takes as long as three path-tracing rays at least.
+// Ray limit of an audit without a target, for a solution and a picture worth `picture`: as long as both took.
 [[nodiscard]] inline std::uint64_t most_rays_to_know(const Audit& audit, std::uint32_t points, std::uint64_t picture = 0) {
   constexpr std::uint64_t most = 120'000'000;
   const std::uint64_t least = rays_to_know_a_point * points;
-  return std::clamp<std::uint64_t>(3 * (rays_worth(audit) + picture), least, std::max(most, least));
+  return std::clamp<std::uint64_t>(rays_a_work * (rays_worth(audit) + picture), least, std::max(most, least));
 }
 
 [[nodiscard]] inline AuditGoal goal_to_know(const Audit& audit, std::uint32_t points, std::uint64_t picture = 0) {

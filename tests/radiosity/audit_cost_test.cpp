@@ -141,6 +141,27 @@ TEST_CASE("an audit that goes on narrows what was wide and shows targets that we
   CHECK(shown[1] > shown[0]);
 }
 
+TEST_CASE("a picture that is good enough is known to be so by what it cost, however cheap its solution was") {
+  const auto seed = std::random_device{}();
+  INFO("seed " << seed);
+  radiosity::Random random{seed, 0};
+  int alone = 0, with_picture = 0;
+  for (int k = 0; k < 100; ++k) {
+    radiosity::Audit audit;
+    audit.links = static_cast<std::uint64_t>(std::pow(10.0, 3.0 + 2.0 * random.uniform()));
+    const double off = 0.005 + 0.005 * random.uniform();
+    const Kind kind{1.0, off, off * (60.0 + 60.0 * random.uniform()), 1, 8};  // noise that the rays of the solution alone do not overcome
+    const AuditGoal goal = radiosity::goal_of_round(audit, 500, 2.0 * off);
+    const AuditGoal both = goal.and_picture(2'000'000);  // 800 x 600 pixels among few polygons
+    CHECK(both.rays_to_steer == goal.rays_to_steer);     // what plans the rounds does not depend on the picture
+    const auto key = seed + static_cast<std::uint64_t>(k);
+    alone += audited(kind, goal, key).result.sums.estimate()->within(2.0 * off);
+    with_picture += audited(kind, both, key).result.sums.estimate()->within(2.0 * off);
+  }
+  CAPTURE(alone, with_picture);
+  CHECK(with_picture > alone + 20);
+}
+
 TEST_CASE("an audit of a target that leaves it open took about as many rays as its last pilot") {
   const auto seed = std::random_device{}();
   INFO("seed " << seed);
