@@ -187,11 +187,11 @@ radiosity::Scene scene_of(Choices& choices) {
 radiosity::Options options_of(Choices& choices) {
   radiosity::Options options{.epsilon = 0.1 + 0.1 * choices.below(6),
                              .min_area = 0.01 * (1 + choices.below(8)),
-                             .cluster_from = choices.one_in(2) ? 2 : 300,
+                             .cluster_from = choices.one_in(2) ? 2U : 300U,
                              .solver = static_cast<radiosity::Solver>(choices.below(4)),
                              .reconstruction = static_cast<radiosity::Reconstruction>(choices.below(4)),
                              .topology = choices.one_in(4) ? radiosity::Topology::separate : radiosity::Topology::shared,
-                             .audit_points = choices.one_in(4) ? 8 : 0,
+                             .audit_points = choices.one_in(4) ? 8U : 0U,
                              .threads = 1};
   if (choices.one_in(3)) {
     options.refinement = radiosity::Refinement::a_posteriori;
