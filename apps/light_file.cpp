@@ -86,7 +86,7 @@ SideFile files_of(const SceneSource& source) {
 namespace {
 
 constexpr std::string_view light_opening = "halflight light 2\n";
-constexpr std::size_t digits = 16;  // of a checksum
+constexpr std::size_t checksum_digits = 16;  // of a checksum
 
 // A checksum of everything that the light depends on: colours, and shapes by the corners of coarse approximations.
 std::string key_of(const radiosity::Scene& scene, const radiosity::Frame& frame) {
@@ -156,15 +156,15 @@ std::optional<LightParts> parts_of(std::string_view bytes, std::string& reason) 
   reason = "not a .light file of this version";
   if (!bytes.starts_with(light_opening)) { return std::nullopt; }
   reason = damaged;
-  const std::size_t before = light_opening.size() + digits + 1;
+  const std::size_t before = light_opening.size() + checksum_digits + 1;
   constexpr std::size_t bytes_of_length = 8;
-  if (bytes.size() < before + bytes_of_length + bytes_of_head + digits) { return std::nullopt; }
-  if (checksum_of(bytes.substr(0, bytes.size() - digits)) != bytes.substr(bytes.size() - digits)) { return std::nullopt; }
-  const std::string_view rest = bytes.substr(before + bytes_of_length, bytes.size() - before - bytes_of_length - digits);
+  if (bytes.size() < before + bytes_of_length + bytes_of_head + checksum_digits) { return std::nullopt; }
+  if (checksum_of(bytes.substr(0, bytes.size() - checksum_digits)) != bytes.substr(bytes.size() - checksum_digits)) { return std::nullopt; }
+  const std::string_view rest = bytes.substr(before + bytes_of_length, bytes.size() - before - bytes_of_length - checksum_digits);
   const std::uint64_t source = bits_at(bytes, before, bytes_of_length);
   if (source > rest.size() - bytes_of_head) { return std::nullopt; }
   reason.clear();
-  return LightParts{bytes.substr(light_opening.size(), digits), rest.substr(0, source), rest.substr(source)};
+  return LightParts{bytes.substr(light_opening.size(), checksum_digits), rest.substr(0, source), rest.substr(source)};
 }
 
 }  // namespace
