@@ -20,7 +20,7 @@
 namespace radiosity::intake {
 namespace detail {
 
-// Measures of all open surfaces together.
+// Measures of all open surfaces together, but for those most of which shines: a dome of sky is not the wall of a room.
 struct OpenSurfaces {
   std::vector<double> area, opening;   // by component, 0 if it is closed or one-sided; opening: area of flat lids on its borders
   std::vector<double> border, met;     // by component: length of its borders, and of the part that coincides with borders of others
@@ -28,13 +28,17 @@ struct OpenSurfaces {
   double whole = 0.0, all_open = 0.0;  // sums of area and opening
   double volume = 0.0;  // signed volume, closed by cones over the borders from their centres; negative if most surfaces look inwards
 
-  OpenSurfaces(Working& mesh, const Topology& topology, std::span<const Component> components)
-      : area(components.size()), opening(area), border(area), met(area), first(components.size(), none), ends_(topology.vertices) {
+  OpenSurfaces(Working& mesh, const Topology& topology, const Shells& shells)
+      : area(shells.components().size()), opening(area), border(area), met(area), first(area.size(), none), ends_(topology.vertices) {
+    std::vector<bool> counts;
+    for (const Component& component : shells.components()) {
+      counts.push_back(component.role == Role::surface && !component.one_sided && 2.0 * shells.shining_share(component) < 1.0);
+    }
     glm::dvec3 normals{0.0}, middle{0.0};
     double length = 0.0;
     for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) {
       const std::uint32_t c = topology.component[f];
-      if (components[c].role != Role::surface || components[c].one_sided) { continue; }
+      if (!counts[c]) { continue; }
       const std::span<const glm::dvec3> p = mesh.outline(mesh.faces[f]);
       const glm::dvec3 normal = brep::vector_area(p);
       area[c] += glm::length(normal);
@@ -56,7 +60,7 @@ struct OpenSurfaces {
     }
     find_openings();
     measure_borders();
-    for (std::size_t c = 0; c < components.size(); ++c) {
+    for (std::size_t c = 0; c < area.size(); ++c) {
       whole += area[c];
       all_open += opening[c];
     }
@@ -113,7 +117,7 @@ struct OpenSurfaces {
 
 HALFLIGHT_INLINE void show_both_sides(Working& mesh, const Topology& topology, bool may_turn, Shells& shells) {
   constexpr double tol_opening = 0.02;
-  const detail::OpenSurfaces open(mesh, topology, shells.components());
+  const detail::OpenSurfaces open(mesh, topology, shells);
   const auto is_open = [&](std::uint32_t c) { return open.opening[c] > tol_opening * open.area[c] && 2.0 * open.met[c] < open.border[c]; };
   if (open.are_walls()) {
     if (!may_turn || shells.components().size() > 1 || is_open(0) || shells.shines(shells.components()[0])) { return; }

@@ -25,6 +25,16 @@ HALFLIGHT_INLINE bool Shells::shines(const Component& shell) const {
                      [&](std::uint32_t f) { return !is_black(materials_[mesh_.faces[f].material].emission); });
 }
 
+HALFLIGHT_INLINE double Shells::shining_share(const Component& shell) const {
+  double whole = 0.0, bright = 0.0;
+  for (const std::uint32_t f : shell.faces) {
+    const double area = brep::area(mesh_.outline(mesh_.faces[f]));
+    whole += area;
+    bright += is_black(materials_[mesh_.faces[f].material].emission) ? 0.0 : area;
+  }
+  return whole > 0.0 ? bright / whole : 0.0;
+}
+
 HALFLIGHT_INLINE bool Shells::holds_another(const Component& shell, const Component* around) const {
   constexpr std::size_t most_asked = 1000;
   const raycast::Box box = shell.box.grown(mesh_.tolerance);
@@ -99,15 +109,7 @@ HALFLIGHT_INLINE Component* Shells::pierced_by(std::span<const Place> places, co
 
 HALFLIGHT_INLINE bool Shells::shines_inwards(const Component& lamp, const Component* around, bool around_is_room) const {
   if (lamp.role != Role::solid) { return false; }
-  if (lamp.volume > 0.0) {
-    double whole = 0.0, bright = 0.0;
-    for (const std::uint32_t f : lamp.faces) {
-      const double area = brep::area(mesh_.outline(mesh_.faces[f]));
-      whole += area;
-      bright += is_black(materials_[mesh_.faces[f].material].emission) ? 0.0 : area;
-    }
-    return 2.0 * bright < whole && is_furnished(lamp);
-  }
+  if (lamp.volume > 0.0) { return 2.0 * shining_share(lamp) < 1.0 && is_furnished(lamp); }
   if (holds_another(lamp, around)) { return true; }
   if (around == nullptr) { return components_.size() == 1; }
   const bool walls = nests_.empty() ? !is_furnished(*around) : nests_[static_cast<std::size_t>(around - components_.data())].filled >= 0.5;

@@ -44,7 +44,8 @@ class Shells {
   void find_roles();
 
   [[nodiscard]] std::span<const Component> components() const { return components_; }
-  [[nodiscard]] bool shines(const Component& shell) const;
+  [[nodiscard]] bool shines(const Component& shell) const;           // does any face of it?
+  [[nodiscard]] double shining_share(const Component& shell) const;  // of its area
   // Marks the component as one that lies on a surface. `turn`: does it show the back of its faces? `one_sided`: its side towards that
   // surface is not visible.
   void lay(std::uint32_t component, bool turn, bool one_sided = true);

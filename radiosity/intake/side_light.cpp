@@ -149,22 +149,27 @@ HALFLIGHT_INLINE void SideLight::shoot() {
       const bool alone = end.point != none && end.beside == none;
       end.as_lit = alone && cut_off(place, points_[end.point], met.way) ? static_cast<std::uint32_t>(k) : end.point;
       met_.push_back(end);
-      view.way += met.way * point.area / (area[piece] * rays_);
+      const double part = point.area / (area[piece] * rays_);
+      view.way += met.way * part;
+      if (met.side == none) { continue; }
+      view.met += part;
+      view.to_met += met.way * part;
     }
   }
 }
 
-// A lamp emits to the side with the longer distance to the next surface, because a flat lamp close to a ceiling was not meant to light
-// the ceiling.
+// A lamp emits to the side with the longer distance to the surfaces that it lights, because a flat lamp close to a ceiling was not meant
+// to light the ceiling. Directions in which there is nothing do not count: a part of the sky was not meant to light what is outside of it.
 HALFLIGHT_INLINE void SideLight::set_lamps(std::span<const Material> materials) {
   constexpr double much_longer = 2.0;
   for (std::uint32_t f = 0; f < mesh_.faces.size(); ++f) {
     const Face& face = mesh_.faces[f];
     const bool back_shines = face.back != none && !is_black(materials[face.back].emission);
     if (is_black(materials[face.material].emission) && !back_shines) { continue; }
-    const double front = views_[piece_[f]].front.way, back = views_[piece_[f]].back.way;
-    sent_[2 * f] = front * much_longer > back ? 1.0 : 0.0;
-    sent_[2 * f + 1] = back * much_longer > front ? 1.0 : 0.0;
+    const auto distance = [](const SideView& view) { return view.met > 0.0 ? view.to_met / view.met : 0.0; };
+    const double front = distance(views_[piece_[f]].front), back = distance(views_[piece_[f]].back);
+    sent_[2 * f] = front * much_longer >= back ? 1.0 : 0.0;
+    sent_[2 * f + 1] = back * much_longer >= front ? 1.0 : 0.0;
   }
 }
 

@@ -22,8 +22,9 @@ namespace radiosity::intake {
 
 // One side of a piece; means over its area.
 struct SideView {
-  double light = 0.0;  // irradiance, relative to the exitance of a lamp
-  double way = 0.0;    // straight distance to the next surface
+  double light = 0.0;              // irradiance, relative to the exitance of a lamp
+  double way = 0.0;                // straight distance to the next surface, or twice the size of the model where there is none
+  double met = 0.0, to_met = 0.0;  // share of the directions in which there is a surface, and the sum of distances over these
 };
 
 struct PieceView {

@@ -14,6 +14,7 @@
 #include "radiosity/polygon_soup.hpp"
 
 using radiosity::ChangeKind;
+using soup::add_box;
 using soup::count_of;
 using soup::measure;
 using soup::Soup;
@@ -50,6 +51,24 @@ Soup part_of_ball(double low, double high, int n) {
     return glm::dvec3(std::cos(b) * std::cos(a), std::cos(b) * std::sin(a), std::sin(b));
   });
   return soup;
+}
+
+// Half a sphere of sky, seen from within; `apart`: each polygon is an object of its own, as CAD programs write them.
+void add_sky(Soup& out, double radius, double from, int n, bool apart) {
+  for (int i = 0; i < n; ++i) {
+    for (int j = 0; j < n / 4; ++j) {
+      const auto at = [&](int k, int l) {
+        const double a = 2.0 * std::numbers::pi * k / n, b = 2.0 * std::numbers::pi * l / n;
+        return glm::dvec3(radius * std::cos(b) * std::cos(a), radius * std::cos(b) * std::sin(a), from + radius * std::sin(b));
+      };
+      if (apart || i + j == 0) { out.names.push_back("sky"); }
+      if (j + 1 < n / 4) {
+        out.polygon({at(i, j), at(i, j + 1), at(i + 1, j + 1), at(i + 1, j)}, 1);
+      } else {
+        out.polygon({at(i, j), at(i, j + 1), at(i + 1, j)}, 1);
+      }
+    }
+  }
 }
 
 constexpr double pi = std::numbers::pi;
@@ -161,5 +180,59 @@ TEST_CASE("intake: where nothing tells the side, the walls of an open room and b
     const radiosity::Intake taken = (inwards ? turned(vase) : vase).take_in(unknown);
     CHECK(measure(taken.objects).area == Approx(vase.area()));
     CHECK(count_of(taken, ChangeKind::inside_out) == (inwards ? 1 : 0));
+  }
+}
+
+TEST_CASE("intake: walls that stand alone under a sky reflect on both sides, as they do without it") {
+  const unsigned seed = std::random_device{}();
+  CAPTURE(seed);
+  std::mt19937 random(seed);
+  const auto number = [&](double lo, double hi) { return std::uniform_real_distribution(lo, hi)(random); };
+  for (int run = 0; run < 20; ++run) {
+    Soup soup;
+    const double high = number(2.0, 4.0), reach = number(10.0, 15.0);
+    soup.polygon({{-reach, -reach, 0}, {reach, -reach, 0}, {reach, reach, 0}, {-reach, reach, 0}});
+    const int walls = 1 + run % 4;
+    for (int w = 0; w < walls; ++w) {
+      const double turn = number(0.0, 2.0 * pi);
+      const glm::dvec3 from{4.0 * (w % 2) - 2.0, 4.0 * (w / 2) - 2.0, 0.0},
+          to = from + 1.5 * glm::dvec3(std::cos(turn), std::sin(turn), 0.0);
+      soup.names.push_back("wall");
+      soup.polygon({from, to, to + glm::dvec3(0, 0, high), from + glm::dvec3(0, 0, high)});
+    }
+    const double seen = soup.area();
+    add_sky(soup, 2.5 * reach, -1.0, 16, false);
+    const radiosity::Intake taken = soup.take_in(unknown);
+    CHECK(count_of(taken, ChangeKind::open) == static_cast<std::size_t>(walls) + 1);
+    CHECK(measure(taken.objects).area == Approx(soup.area() + seen).epsilon(1e-6));
+  }
+}
+
+TEST_CASE("intake: a sky whose polygons are objects of their own shines inwards, and what it lights is not turned") {
+  const unsigned seed = std::random_device{}();
+  CAPTURE(seed);
+  std::mt19937 random(seed);
+  const auto number = [&](double lo, double hi) { return std::uniform_real_distribution(lo, hi)(random); };
+  for (int run = 0; run < 20; ++run) {
+    Soup soup;
+    soup.polygon({{-20, -20, 0}, {20, -20, 0}, {20, 20, 0}, {-20, 20, 0}});
+    for (int k = 0; k < 4; ++k) {
+      const glm::dvec3 lo{number(-6.0, 0.0), 4.0 * k - 8.0, 0.0};
+      soup.names.push_back("house");
+      add_box(soup, lo, lo + glm::dvec3(number(1.0, 5.0), number(1.0, 3.0), number(1.0, 5.0)));
+    }
+    add_sky(soup, number(18.0, 40.0), number(-2.0, 0.0), 12 + 4 * (run % 4), true);
+    const radiosity::Intake taken = soup.take_in(unknown);
+    CHECK(count_of(taken, ChangeKind::to_light) == 0);
+    for (const radiosity::SceneObject& object : taken.objects) {
+      if (object.name.substr(0, 3) != "sky") { continue; }
+      brep::Builder builder;
+      object.shape->approximate(1.0, builder);
+      for (std::uint32_t f = 0; f < builder.face_count(); ++f) {
+        std::vector<glm::dvec3> p;
+        for (const std::uint32_t v : builder.corners(f)) { p.push_back(builder.position(v)); }
+        CHECK((builder.sheet(f) == brep::no_sheet || glm::dot(p[0], brep::vector_area(p)) < 0.0));
+      }
+    }
   }
 }
