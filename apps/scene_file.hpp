@@ -61,8 +61,9 @@ struct SceneFile {
   radiosity::Scene scene;
   std::vector<ObjectOrigin> origins;  // by index of scene.objects
   std::vector<radiosity::Camera> cameras;
-  std::vector<std::string> notes;  // about files of other formats: what was changed or read differently
-  std::string text;                // the file itself, for an output that contains it
+  std::vector<std::string> notes;     // about files of other formats: what was changed or read differently
+  std::vector<std::string> warnings;  // about such files: what shines otherwise than the file says
+  std::string text;                   // the file itself, for an output that contains it
   std::vector<FileBeside> beside;
   std::shared_ptr<GivenPolygons> given;  // only for files of other formats, else null
 };

@@ -116,6 +116,8 @@ std::string plan(const radiosity::Scene& scene, const radiosity::Prepared& prepa
 std::string notes(const SceneFile& file) {
   std::string out = file.notes.empty() ? "" : "taken in:\n";
   for (const std::string& note : file.notes) { out += "  " + note + "\n"; }
+  out += file.warnings.empty() ? "" : "warnings:\n";
+  for (const std::string& sentence : file.warnings) { out += "  " + sentence + "\n"; }
   return out;
 }
 

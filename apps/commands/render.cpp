@@ -173,6 +173,7 @@ ExitCode write_solution(Artist& artist, const radiosity::Solution& solution, con
   report.taken_in = artist.file().notes;
   report.options = settings;
   report.audit = solution.audit;
+  report.audit.warnings.insert(report.audit.warnings.begin(), artist.file().warnings.begin(), artist.file().warnings.end());
   leave_out_others(report.audit.stages);
   const auto outputs = encode(artist, solution, control, report);
   progress.done();

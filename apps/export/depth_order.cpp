@@ -58,7 +58,7 @@ bool is_covered(const radiosity::Solution& solution, std::uint32_t node) {
 radiosity::Mesh in_depth_order(const SceneFile& file, const radiosity::Solution& solution, const radiosity::Mesh& mesh) {
   const std::vector<radiosity::InputSurface> inputs = radiosity::surfaces(file.scene);
   const std::vector<raycast::PlacedObject> objects = radiosity::placed_objects(file.scene);
-  const double step = 1e-4 * radiosity::scene_bounds(file.scene).diameter();
+  const double step = 1e-4 * radiosity::lit_bounds(file.scene).diameter();
   const std::vector<bool> before = covering(mesh, solution, inputs, objects);
   std::vector<bool> fixed(mesh.positions.size(), false);  // vertices of leaves that are not covered: moving them would open gaps
   for (const radiosity::MeshFace& face : mesh.faces) {

@@ -105,7 +105,7 @@ class GltfReader {
       const glm::dmat4 matrix = parent * gltf_matrix(node);
       if (node["mesh"]) { instances(node, matrix, index); }
       if (node["camera"]) { camera(node, matrix); }
-      if (const JsonValue& named = node["extensions"]["KHR_lights_punctual"]["light"]) { light(named, matrix, index); }
+      if (const JsonValue& named = node["extensions"]["KHR_lights_punctual"]["light"]) { light(named, matrix); }
       for (std::size_t i = node["children"].items().size(); i-- > 0;) { push(node["children"][i], matrix); }
     }
   }
@@ -245,18 +245,18 @@ class GltfReader {
     why_ = "; " + sentence;
   }
 
-  // KHR_lights_punctual: intensities in candela are taken as W/sr, as for materials.
-  void light(const JsonValue& named, const glm::dmat4& matrix, std::size_t index) {
+  // KHR_lights_punctual: intensities in candela are taken as W/sr, as for materials, and so those in lux as W/m2.
+  void light(const JsonValue& named, const glm::dmat4& matrix) {
     const JsonValue& given = (*root_)["extensions"]["KHR_lights_punctual"]["lights"][named.index().value_or(nowhere)];
-    const std::string place = "node " + std::to_string(index);
     if (!given) { return error(named.offset(), "there is no such light"); }
     const std::string& type = given["type"].string();
-    if (type == "directional") { return notes_.add("directional lights are left out: a lamp has a place", place); }
-    if (type == "spot") { notes_.add("spot lights shine in all directions", place); }
     radiosity::Color color(1.0);
     for (int k = 0; k < 3; ++k) { color[k] = given["color"][static_cast<std::size_t>(k)].number(1.0); }
     const radiosity::Color intensity = glm::clamp(given["intensity"].number(1.0) * color, radiosity::Color(0.0), radiosity::Color(1e6));
-    model_.lights.push_back({glm::dvec3(matrix[3]), intensity, true});
+    const auto kind = type == "directional" ? ModelLight::Kind::sun : type == "spot" ? ModelLight::Kind::spot : ModelLight::Kind::point;
+    const double inner = given["spot"]["innerConeAngle"].number(0.0);
+    const double outer = given["spot"]["outerConeAngle"].number(0.25 * std::numbers::pi);
+    model_.lights.push_back({kind, glm::dvec3(matrix[3]), intensity, true, -glm::dvec3(matrix[2]), inner, outer});
   }
 
   void camera(const JsonValue& node, const glm::dmat4& matrix) {

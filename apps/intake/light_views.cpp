@@ -28,12 +28,16 @@ struct HangingPlace {
 }  // namespace
 
 // A surface with less than a hundredth of the largest exitance does not count as a lamp: many programs give every material a little
-// emission.
-LightViews::LightViews(const radiosity::Scene& scene) : objects_(radiosity::placed_objects(scene)) {
+// emission. Those of suns, outside of what they light, are no measure.
+LightViews::LightViews(const radiosity::Scene& scene)
+    : objects_(radiosity::placed_objects(scene)), size_(radiosity::lit_bounds(scene).diameter()) {
   const std::vector<radiosity::InputSurface> surfaces = radiosity::surfaces(scene);
   const auto exitance = [&](const radiosity::InputSurface& s) { return radiosity::brightest(scene.materials[s.material].emission); };
   double most = 0.0;
-  for (const radiosity::InputSurface& surface : surfaces) { most = std::max(most, exitance(surface)); }
+  const raycast::Box lit = radiosity::lit_bounds(scene);
+  for (const radiosity::InputSurface& surface : surfaces) {
+    if (lit.contains(objects_.object(surface.object).bounds().centre())) { most = std::max(most, exitance(surface)); }
+  }
   std::vector<const radiosity::InputSurface*> shining;
   std::vector<double> power(scene.objects.size(), 0.0);  // approximate
   for (const radiosity::InputSurface& surface : surfaces) {
@@ -100,7 +104,7 @@ std::optional<radiosity::Camera> LightViews::across_room(glm::dvec3 middle) cons
   constexpr double eye_height = 0.6;  // relative to the distance from floor to ceiling
   middle.z -= (1.0 - eye_height) * free_way(middle, {0, 0, -1});
   glm::dvec3 away{0.0};
-  double most = 0.01 * objects_.diameter();
+  double most = 0.01 * size_;
   constexpr int directions = 16;
   for (int i = 0; i < directions; ++i) {
     const double angle = 2.0 * std::numbers::pi * (i + 0.3) / directions;
@@ -135,7 +139,7 @@ std::optional<radiosity::Camera> LightViews::inside() const {
       best = camera;
     }
   };
-  const double off = 1e-4 * objects_.diameter();
+  const double off = 1e-4 * size_;
   for (std::size_t i = 0; i < std::min(most_lamps, lamps_.size()); ++i) {
     const raycast::Box box = objects_.object(lamps_[i]).bounds();
     look({box.centre().x, box.centre().y, box.lo.z - off});

@@ -49,6 +49,7 @@ class LightViews {
   [[nodiscard]] std::optional<radiosity::Camera> across_room(glm::dvec3 middle) const;
 
   raycast::Scene objects_;
+  double size_ = 0.0;                        // of what is lit
   std::vector<raycast::ScenePoint> points_;  // on some of the lamps
   std::vector<std::uint32_t> lamps_;         // objects, by decreasing power
 };

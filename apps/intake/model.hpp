@@ -36,12 +36,16 @@ struct ModelMaterial {
   bool two_sided = false;          // does the file say that its surfaces are seen from both sides?
 };
 
-// A light without a surface, which becomes a small lamp. `intensity` is in W/sr or, if not `absolute`, relative to one that is bright
-// enough for the scene.
+// A light without a surface, for which a lamp is made (light_lamps.hpp). `intensity` is in W/sr, that of a sun in W/m2 across its rays; or,
+// if not `absolute`, relative to one that is bright enough for the scene.
 struct ModelLight {
-  glm::dvec3 position{0.0};
+  enum class Kind : unsigned char { point, spot, sun };
+  Kind kind = Kind::point;
+  glm::dvec3 position{0.0};  // but for a sun
   radiosity::Color intensity{0.0};
-  bool absolute = false;  // is the intensity in W/sr?
+  bool absolute = false;
+  glm::dvec3 direction{0.0, 0.0, -1.0};  // in which a spot or a sun shines, of any length
+  double inner = 0.0, outer = 0.0;       // of a spot, radians from its axis: full light up to `inner`, none beyond `outer`
 };
 
 // A run of consecutive polygons from one place: an included file or, in formats without lines, a list. The name is empty for the file

@@ -10,13 +10,13 @@
 #include <raycast/box.hpp>
 #include <raycast/objects/box.hpp>
 #include <raycast/objects/polygon.hpp>
-#include <raycast/objects/sphere.hpp>
 #include <raycast/transform.hpp>
 
 #include <radiosity/camera/view.hpp>
 #include <radiosity/intake/intake.hpp>
 #include <radiosity/scene/bounds.hpp>
 
+#include "apps/intake/light_lamps.hpp"
 #include "apps/intake/light_views.hpp"
 #include "apps/text.hpp"
 #include "apps/words.hpp"
@@ -43,6 +43,7 @@ class SceneMaker {
     sides_unknown_ = !model_.tells_sides;
     if (!part(faults)) { return std::nullopt; }
     if (options_.lamps_wanted && !shines() && !add_studio(faults)) { return std::nullopt; }
+    if (options_.lamps_wanted && only_suns_ && !light_rooms_without_sun(faults)) { return std::nullopt; }
     look_for_light();
     note(std::string(1, "xyz"[static_cast<std::size_t>(options_.up.value_or(up))]) + " is taken as up (--up), one unit as " +
          radiosity::length_text(options_.metres) + " (--units)");
@@ -76,7 +77,11 @@ class SceneMaker {
       faults.push_back("the file has more than " + std::to_string(max_model_objects) + " objects");
       return false;
     }
-    add_lights();
+    only_suns_ = !model_.lights.empty() && !shines() && std::all_of(model_.lights.begin(), model_.lights.end(), [](const auto& light) {
+      return light.kind == ModelLight::Kind::sun;
+    });
+    add_light_lamps(file_, model_.lights);
+    only_suns_ = only_suns_ && shines();
     rename();
     return true;
   }
@@ -93,7 +98,10 @@ class SceneMaker {
     }
     file_.cameras = std::move(model_.cameras);
     if (options_.camera) { file_.cameras.insert(file_.cameras.begin(), *options_.camera); }
-    for (ModelLight& light : model_.lights) { light.position = linear * light.position; }
+    for (ModelLight& light : model_.lights) {
+      light.position = linear * light.position;
+      light.direction = linear * light.direction;
+    }
   }
 
   void note(std::string sentence) { file_.notes.push_back(std::move(sentence)); }
@@ -154,7 +162,9 @@ class SceneMaker {
     options.sides_unknown = sides_unknown_ && !any_lamp;
     options.eyes = eyes_;
     for (const radiosity::Camera& camera : file_.cameras) { options.eyes.push_back(camera.eye); }
-    for (const ModelLight& light : model_.lights) { options.eyes.push_back(light.position); }
+    for (const ModelLight& light : model_.lights) {
+      if (light.kind != ModelLight::Kind::sun) { options.eyes.push_back(light.position); }
+    }
     for (const radiosity::SceneObject& object : model_.objects) {
       const bool shines = shines_by(object);
       if (shines && !object.placement.inside) { options.lamps.push_back(radiosity::placed_sides(*object.shape, object.placement)); }
@@ -180,24 +190,6 @@ class SceneMaker {
                                                         std::move(model_.first_corner), std::move(intake.parts), 0, given_z_up_});
     }
     file_.origins.assign(file_.scene.objects.size(), {"mesh", {}});
-  }
-
-  // Adds a sphere of radius 1 % of the scene's size for each light. A relative intensity of 1 gives 100 W/m2 at half the scene's size;
-  // one of I W/sr has the exitance I / radius^2.
-  void add_lights() {
-    if (model_.lights.empty()) { return; }
-    const double size = radiosity::scene_bounds(file_.scene).diameter(), radius = 0.01 * size;
-    for (const ModelLight& light : model_.lights) {
-      raycast::Made<raycast::Sphere> sphere = raycast::Sphere::make(light.position, radius);
-      const double exitance = light.absolute ? 1.0 / (radius * radius) : 100.0 * 2500.0;
-      if (!sphere || radiosity::is_black(light.intensity) || !(exitance < 1e100)) { continue; }
-      const auto material = static_cast<std::uint32_t>(file_.scene.materials.size());
-      file_.scene.materials.push_back({"light", radiosity::Color(0.0), exitance * light.intensity});
-      file_.scene.objects.push_back({"light", std::move(sphere.object), {}, {material}});
-      file_.origins.push_back({"light", {}});
-    }
-    note(counted(model_.lights.size(), "light has no surface: a lamp", "lights have no surface: lamps") + " of " +
-         radiosity::length_text(2.0 * radius) + " across");
   }
 
   // Appends numbers to names that are already used.
@@ -286,6 +278,17 @@ class SceneMaker {
     return true;
   }
 
+  // Closed rooms get lamps if a sun lights nothing that is seen.
+  bool light_rooms_without_sun(std::vector<std::string>& faults) {
+    const std::vector<raycast::Box> rooms = rooms_to_light();
+    if (rooms.empty()) { return true; }
+    const LightViews views(file_.scene);
+    const auto lit = [&](const radiosity::Camera& camera) { return views.lit_share(camera) >= LightViews::tol_dark; };
+    const bool seen = file_.cameras.empty() ? lit(radiosity::automatic_camera(file_.scene))
+                                            : std::any_of(file_.cameras.begin(), file_.cameras.end(), lit);
+    return seen || add_room_lamps(rooms, faults, "--lamp MATERIAL, one of " + list_of(names()));
+  }
+
   // A model without any lamp is put into a studio, so that it can be seen: floor, walls, and a lamp in the ceiling. If it has closed
   // rooms, they get lamps instead, because light from outside would not reach them.
   bool add_studio(std::vector<std::string>& faults) {
@@ -326,6 +329,7 @@ class SceneMaker {
   std::vector<glm::dvec3> given_positions_;  // positions in the file
   bool given_z_up_ = false;
   bool sides_unknown_ = false;  // does the format not say which side of an open surface is seen?
+  bool only_suns_ = false;      // is all light that of directional lights?
   std::vector<radiosity::Room> rooms_;
   std::vector<glm::dvec3> eyes_;  // of cameras that are not part of the model
 };

@@ -45,7 +45,7 @@ class ModelMaker {
     if (is_camera(node)) {
       add_camera(model, node, state, notes_);
     } else if (node.type.ends_with("Light")) {
-      add_light(model, node, state, notes_);
+      add_light(model, node, state);
     } else if (node.version == Version::v97) {
       const Node* const geometry = node.node("geometry");
       if (geometry != nullptr) { shape(*geometry, state_of_shape(node, *geometry, state)); }

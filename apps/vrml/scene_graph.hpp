@@ -163,7 +163,7 @@ struct State {
 // --- cameras and lights (views.cpp)
 
 void add_camera(Model& model, const Node& node, const State& state, Notes& notes);
-void add_light(Model& model, const Node& node, const State& state, Notes& notes);
+void add_light(Model& model, const Node& node, const State& state);
 
 // --- the meaning of nodes for the walk (traverse.cpp)
 

@@ -33,14 +33,22 @@ void add_camera(Model& model, const Node& node, const State& state, Notes& notes
   model.cameras.push_back(std::move(camera));
 }
 
-void add_light(Model& model, const Node& node, const State& state, Notes& notes) {
+void add_light(Model& model, const Node& node, const State& state) {
   if (node.is_false("on")) { return; }
-  if (node.type == "DirectionalLight") { return notes.add("directional lights are left out: a lamp has a place", at_line_of(node)); }
-  if (node.type == "SpotLight") { notes.add("spot lights shine in all directions", at_line_of(node)); }
   const double intensity = node.number("intensity", 1.0);
   const glm::dvec3 color = node.vector("color", glm::dvec3(1.0));
-  model.lights.push_back({placed(state, node.vector("location", {0.0, 0.0, node.version == Version::v97 ? 0.0 : 1.0})),
-                          glm::max(intensity * color, glm::dvec3(0.0))});
+  const bool v97 = node.version == Version::v97;
+  ModelLight light;
+  light.kind = node.type == "DirectionalLight" ? ModelLight::Kind::sun
+               : node.type == "SpotLight"      ? ModelLight::Kind::spot
+                                               : ModelLight::Kind::point;
+  light.position = placed(state, node.vector("location", {0.0, 0.0, v97 ? 0.0 : 1.0}));
+  light.intensity = glm::max(intensity * color, glm::dvec3(0.0));
+  light.direction = glm::dmat3(state.transform) * node.vector("direction", {0.0, 0.0, -1.0});
+  light.outer = node.number("cutOffAngle", 0.785398);
+  // VRML 1.0 lets the light fall with a power of the cosine: full light on the axis only, unless the power is 0.
+  light.inner = v97 ? node.number("beamWidth", 1.570796) : node.number("dropOffRate", 0.0) > 0.0 ? 0.0 : light.outer;
+  model.lights.push_back(light);
 }
 
 }  // namespace apps::vrml

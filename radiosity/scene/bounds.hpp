@@ -4,6 +4,7 @@
 // Placed objects, and the bounds of a scene's surfaces. A room (an object with `inside`) is, as a solid, unbounded: everything outside
 // its shape. Its surface is that of the shape, so the bounds of the shape are used.
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <vector>
@@ -13,6 +14,7 @@
 #include <raycast/box.hpp>
 #include <raycast/transform.hpp>
 
+#include <radiosity/scene/material.hpp>
 #include <radiosity/scene/scene.hpp>
 
 namespace radiosity {
@@ -49,6 +51,22 @@ namespace radiosity {
     result.extend(box.hi);
   }
   return result;
+}
+
+[[nodiscard]] inline bool shines_all_over(const Scene& scene, const SceneObject& object) {
+  return std::all_of(object.material.begin(), object.material.end(), [&](auto m) { return !is_black(scene.materials[m].emission); });
+}
+
+// The bounds of what does not shine all over, so without skies and far suns; of all objects if there is nothing else.
+[[nodiscard]] inline raycast::Box lit_bounds(const Scene& scene) {
+  raycast::Box result;
+  for (const SceneObject& object : scene.objects) {
+    if (shines_all_over(scene, object)) { continue; }
+    const raycast::Box box = placed_bounds(*object.shape, object.placement);
+    result.extend(box.lo);
+    result.extend(box.hi);
+  }
+  return result.empty() ? scene_bounds(scene) : result;
 }
 
 // The placed objects of the scene, in scene coordinates.

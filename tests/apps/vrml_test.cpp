@@ -202,11 +202,11 @@ TEST_CASE("VRML: cameras, also those to choose from, lights become small lamps")
   // 3 x 4 are seen at the distance 4.
   CHECK(model.cameras[2].field_of_view == Approx(2.0 * std::atan(0.5 * 4.0 / 4.0) * 180.0 / std::numbers::pi));
   CHECK(noted(model.notes, "cameras without perspective get one that shows as much at their focal distance"));
-  REQUIRE(model.lights.size() == 1);
-  CHECK(noted(model.notes, "directional lights are left out"));
+  REQUIRE(model.lights.size() == 2);
   const apps::SceneFile file = models::scene("a.wrl", "#VRML V1.0 ascii\n" + body);
-  REQUIRE(file.scene.objects.size() == 2);
+  REQUIRE(file.scene.objects.size() == 3);
   CHECK(file.scene.objects[1].name == "light");
+  CHECK(noted(file.notes, "1 directional light became a sun"));
   CHECK(noted(file.notes, "1 light has no surface: a lamp of"));
   CHECK(file.cameras[0].eye == glm::dvec3(0, -5, 0));
 }

@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: MIT
+#include "apps/intake/light_lamps.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+#include <raycast/box.hpp>
+#include <raycast/circle.hpp>
+#include <raycast/objects/disk.hpp>
+#include <raycast/objects/mesh.hpp>
+#include <raycast/objects/sphere.hpp>
+#include <raycast/scene.hpp>
+
+#include <radiosity/intake/intake.hpp>
+#include <radiosity/scene/bounds.hpp>
+#include <radiosity/scene/material.hpp>
+
+#include "apps/text.hpp"
+
+namespace apps {
+namespace {
+
+constexpr double degree = std::numbers::pi / 180.0;
+
+// A closed prism with a recess of the same number of sides, which opens towards `axis`.
+std::shared_ptr<const raycast::Object> cup(const glm::dvec3& bottom, const glm::dvec3& axis, double rim, double depth, double wall) {
+  constexpr std::uint32_t sides = 24;
+  const raycast::AxisFrame frame(axis);
+  std::vector<glm::dvec3> corners;
+  const auto ring = [&](double radius, double height) {
+    for (std::uint32_t i = 0; i < sides; ++i) {
+      const double angle = 2.0 * std::numbers::pi * i / sides;
+      corners.push_back(bottom + radius * (std::cos(angle) * frame.u + std::sin(angle) * frame.v) + height * frame.w);
+    }
+  };
+  ring(rim, 0.0);
+  ring(rim, depth);
+  ring(rim + wall, depth);
+  ring(rim + wall, -wall);
+  constexpr std::uint32_t rings = 4;
+  std::vector<std::vector<std::uint32_t>> faces(2);  // the bottoms, inside and outside
+  for (std::uint32_t i = 0; i < sides; ++i) {
+    faces[0].push_back(i);
+    faces[1].push_back(rings * sides - 1 - i);
+  }
+  for (std::uint32_t r = 0; r + 1 < rings; ++r) {
+    for (std::uint32_t i = 0; i < sides; ++i) {
+      const std::uint32_t a = r * sides + i, b = r * sides + (i + 1) % sides;
+      faces.push_back({b, a, a + sides, b + sides});
+    }
+  }
+  return raycast::Mesh::make(corners, faces, 1e-12 * (glm::length(bottom) + rim + depth)).object;
+}
+
+class LampMaker {
+ public:
+  explicit LampMaker(SceneFile& file) : file_(file), things_(radiosity::placed_objects(file.scene)), size_(things_.diameter()) {
+    std::vector<raycast::PlacedObject> shining;
+    for (const radiosity::SceneObject& object : file.scene.objects) {
+      if (radiosity::shines_all_over(file.scene, object)) { shining.emplace_back(object.shape, object.placement); }
+    }
+    sky_ = std::make_unique<raycast::Scene>(std::move(shining));
+  }
+
+  void add(const std::vector<ModelLight>& lights) {
+    for (std::size_t i = 0; i < lights.size(); ++i) {
+      if (radiosity::is_black(lights[i].intensity) || !usable(lights[i])) { continue; }
+      if (lights[i].kind == ModelLight::Kind::sun) {
+        sun(lights[i]);
+      } else {
+        lamp(lights, i);
+      }
+    }
+    tell();
+  }
+
+ private:
+  struct Place {
+    glm::dvec3 at{0.0};
+    double free = 0.0;  // the way to the next surface
+  };
+
+  static bool usable(const ModelLight& light) {
+    const bool turned = light.kind == ModelLight::Kind::point || glm::length(light.direction) > 0.0;
+    return turned && glm::length(light.direction) < 1e100 && glm::length(light.position) < 1e30;
+  }
+
+  // Where a lamp hangs free. The next surface is searched by rays in many directions, each from a little behind the place, so that they
+  // meet surfaces through it, too. A lamp that touches a surface is moved off it: into its light, or to the front of the surface,
+  // if this has two fronts to the middle of the scene.
+  [[nodiscard]] Place free_place(const ModelLight& light) const {
+    constexpr int directions = 256;
+    const double behind = 1e-4 * size_;
+    Place place{light.position, size_};
+    glm::dvec3 front(0.0), side(0.0);
+    for (int i = 0; i < directions; ++i) {
+      const double z = 1.0 - 2.0 * (i + 0.5) / directions, aside = std::sqrt(1.0 - z * z),
+                   angle = i * std::numbers::pi * (3.0 - std::sqrt(5.0));
+      const glm::dvec3 direction{aside * std::cos(angle), aside * std::sin(angle), z};
+      const raycast::Segment ray{light.position - behind * direction, direction};
+      const auto hit = things_.closest(ray);
+      if (!hit) { continue; }
+      const double way = std::abs(hit->t - behind);
+      if (way < behind) { front += side = things_.point(*hit, ray).normal; }
+      place.free = std::min(place.free, way);
+    }
+    if (place.free >= behind) { return place; }
+    glm::dvec3 off = light.kind == ModelLight::Kind::spot ? light.direction : front;
+    if (!(glm::length(off) > 1e-9)) { off = glm::dot(side, things_.bounds().centre() - light.position) < 0.0 ? -side : side; }
+    place.at += 2.0 * behind * glm::normalize(off);
+    place.free = behind;
+    return place;
+  }
+
+  void lamp(const std::vector<ModelLight>& lights, std::size_t i) {
+    const ModelLight& light = lights[i];
+    radiosity::Color intensity = light.intensity;
+    Place place = free_place(light);
+    for (std::size_t k = 0; k < lights.size(); ++k) {
+      if (k == i || lights[k].kind == ModelLight::Kind::sun) { continue; }
+      const double way = glm::length(lights[k].position - light.position);
+      const bool balls = light.kind == ModelLight::Kind::point && lights[k].kind == ModelLight::Kind::point;
+      if (way > 1e-6 * size_) {
+        place.free = std::min(place.free, way);
+      } else if (balls && lights[k].absolute == light.absolute) {
+        if (k < i) { return; }  // it is part of that one
+        intensity += lights[k].intensity;
+      }
+    }
+    constexpr double most = 0.02;  // metres
+    const double radius = std::min({most, 0.01 * size_, 0.1 * place.free});
+    intensity *= light.absolute ? 1.0 : 100.0 * 0.25 * size_ * size_;
+    if (light.kind == ModelLight::Kind::spot) { return spot(light, place.at, radius, intensity); }
+    if (take(raycast::Sphere::make(place.at, radius).object, intensity / (radius * radius), "sphere")) {
+      ++balls_;
+      widest_ = std::max(widest_, 2.0 * radius);
+    }
+  }
+
+  void spot(const ModelLight& light, const glm::dvec3& at, double size, const radiosity::Color& intensity) {
+    constexpr double widest = 90.0 * degree, narrowest = 1.0 * degree, sharpest = 0.05, fits = 0.95, gap = 0.05;
+    const double outer = std::clamp(light.outer, narrowest, widest);
+    const double inner = std::clamp(light.inner, 0.0, (1.0 - sharpest) * outer), mean = 0.5 * (inner + outer);
+    const double depth = 2.0 * size / std::max(1.0, std::tan(mean)), rim = depth * std::tan(mean), wall = 0.1 * depth;
+    const double radius = std::min(depth * std::sin(outer - mean) / std::cos(mean), fits * rim);
+    const glm::dvec3 axis = glm::normalize(light.direction), below = (1.0 + gap) * radius * axis;
+    std::shared_ptr<const raycast::Object> blind = cup(at - below, axis, rim, depth + (1.0 + gap) * radius, wall);
+    raycast::Made<raycast::Sphere> ball = raycast::Sphere::make(at, radius);
+    if (!blind || !take(std::move(ball.object), intensity / (radius * radius), "sphere")) { return; }
+    if (!blind_) {
+      blind_ = static_cast<std::uint32_t>(file_.scene.materials.size());
+      file_.scene.materials.push_back({"blind", radiosity::Color(0.0), radiosity::Color(0.0)});
+    }
+    file_.scene.objects.push_back({"blind", std::move(blind), {}, {*blind_}});
+    file_.origins.push_back({"mesh", {}});
+    ++spots_;
+  }
+
+  void sun(const ModelLight& light) {
+    constexpr double half_width = 0.25 * degree, diameters = 100.0;
+    const raycast::Box lit = radiosity::lit_bounds(file_.scene);
+    const glm::dvec3 up = -glm::normalize(light.direction);
+    double distance = diameters * std::max(lit.diameter(), 1e-30);
+    const glm::dvec3 middle = lit.centre();
+    if (const auto hit = sky_->size() > 0 ? sky_->closest({middle, up}) : std::nullopt; hit && hit->t > 0.5 * lit.diameter()) {
+      distance = std::min(distance, 0.9 * hit->t);
+      ++in_sky_;
+    }
+    const double radius = distance * std::tan(half_width);
+    const double share = radius * radius / (radius * radius + distance * distance);
+    const double unit = light.absolute ? 1.0 : 100.0;
+    if (take(raycast::Disk::make(middle + distance * up, -up, radius).object, unit / share * light.intensity, "disk")) { ++suns_; }
+  }
+
+  bool take(std::shared_ptr<const raycast::Object> shape, const radiosity::Color& exitance, const char* kind) {
+    if (!shape || !(radiosity::brightest(exitance) < 1e100)) { return false; }
+    const auto material = static_cast<std::uint32_t>(file_.scene.materials.size());
+    file_.scene.materials.push_back({"light", radiosity::Color(0.0), exitance});
+    file_.scene.objects.push_back({"light", std::move(shape), {}, {material}});
+    file_.origins.push_back({kind, {}});
+    return true;
+  }
+
+  void tell() const {
+    const auto note = [&](std::string sentence) { file_.notes.push_back(std::move(sentence)); };
+    const auto warn = [&](std::string sentence) { file_.warnings.push_back(std::move(sentence)); };
+    if (balls_ > 0) {
+      note(counted(balls_, "light has no surface: a lamp", "lights have no surface: lamps") + " of " + radiosity::length_text(widest_) +
+           " across");
+    }
+    if (suns_ > 0) { note(counted(suns_, "directional light became a sun", "directional lights became suns") + " half a degree wide"); }
+    if (spots_ > 0) {
+      note(counted(spots_, "spot light became a small lamp in a black cup", "spot lights became small lamps in black cups"));
+      warn(counted(spots_, "spot light fades", "spot lights fade") +
+           " from the inner to the outer cone of the file as a round lamp in a black cup does");
+    }
+    if (in_sky_ > 0) {
+      warn(counted(in_sky_, "sun stands", "suns stand") +
+           " just below the sky of the file: not everything is lit from the same direction and equally bright");
+    }
+  }
+
+  SceneFile& file_;
+  raycast::Scene things_;
+  std::unique_ptr<raycast::Scene> sky_;  // what shines all over
+  double size_ = 0.0, widest_ = 0.0;
+  std::optional<std::uint32_t> blind_;  // the material
+  std::size_t balls_ = 0, spots_ = 0, suns_ = 0, in_sky_ = 0;
+};
+
+}  // namespace
+
+void add_light_lamps(SceneFile& file, const std::vector<ModelLight>& lights) {
+  if (!lights.empty()) { LampMaker(file).add(lights); }
+}
+
+}  // namespace apps

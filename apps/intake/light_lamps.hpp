@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Lamps for the lights of a file, which have no surface: a light that shines from a point becomes a small ball, a spot a ball in a
+// black cup, a directional light a far sun.
+
+#include <vector>
+
+#include "apps/intake/model.hpp"
+#include "apps/scene_file.hpp"
+
+namespace apps {
+
+// Adds an object for each light, in the coordinates of the scene, and says so in the notes and warnings.
+//
+// Ball: its radius is at most 2 cm, a hundredth of the scene's diameter, and a tenth of the way to the next surface. One of I W/sr has the
+// exitance I / radius^2.
+// Spot: a ball of radius r, deep in a black cup. A ray from its centre, of the angle t from the axis, passes the rim of the cup, of radius
+// a and h before the centre, at the distance a cos t - h sin t. All of the ball is seen where that is at least r, and nothing where it is
+// below -r. So a, h and r are chosen that the light is full in the inner cone of the file, and none outside of the outer.
+// Sun: a disk half a degree wide, a hundred diameters of the scene away, or within the sky if the file has one.
+//
+// A relative intensity of 1 gives 100 W/m2 at half the scene's size, and everywhere if it is a sun's.
+void add_light_lamps(SceneFile& file, const std::vector<ModelLight>& lights);
+
+}  // namespace apps

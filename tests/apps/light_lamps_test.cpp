@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: MIT
+// Lights without a surface: what their lamps send to a floor is what the file says, in every format.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <optional>
+#include <random>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <glm/vec3.hpp>
+
+#include <radiosity/direct/direct_light.hpp>
+#include <radiosity/direct/lit_region.hpp>
+#include <radiosity/picture/final_gather.hpp>
+#include <radiosity/radiosity.hpp>
+#include <radiosity/result/outcome.hpp>
+#include <radiosity/scene/options.hpp>
+
+#include "catch.hpp"
+#include "gltf_sample.hpp"
+#include "models.hpp"
+
+using models::noted;
+
+namespace {
+
+constexpr double side = 20.0;  // of the floor, from the origin to (side, -side, 0) with z up; in files, where y is up, z = -y
+const double half_size = side / std::sqrt(2.0);
+
+struct Light {
+  std::string type = "point";  // the words of glTF
+  glm::dvec3 at{0.0}, direction{0.0, 0.0, -1.0};
+  double intensity = 1.0, inner = 0.0, outer = 0.8;
+
+  // A floor under this light. Of VRML, a relative intensity of 1 is 100 W/m2 at half the size of the floor.
+  [[nodiscard]] std::string gltf() const {
+    gltf_sample::Sample sample;
+    const glm::dquat turn(glm::dvec3(0, 0, -1), glm::normalize(in_file(direction)));
+    std::ostringstream nodes, more;
+    nodes.precision(17);
+    more.precision(17);
+    // The square of the sample lies in the plane z = 0 of the file: turned, it faces up.
+    nodes << "[{\"children\": [1, 2]}, {\"mesh\": 0, \"scale\": [" << side << ", " << side << ", 1], \"rotation\": [" << -std::sqrt(0.5)
+          << ", 0, 0, " << std::sqrt(0.5) << "], \"translation\": [0, 0, " << side << "]}, {\"translation\": [" << at.x << ", " << at.z
+          << ", " << -at.y << "], \"rotation\": [" << turn.x << ", " << turn.y << ", " << turn.z << ", " << turn.w
+          << "], \"extensions\": {\"KHR_lights_punctual\": {\"light\": 0}}}]";
+    more << ", \"extensions\": {\"KHR_lights_punctual\": {\"lights\": [{\"type\": \"" << type << "\", \"intensity\": " << intensity
+         << ", \"spot\": {\"innerConeAngle\": " << inner << ", \"outerConeAngle\": " << outer << "}}]}}";
+    sample.nodes = nodes.str();
+    sample.more = more.str();
+    return sample.embedded();
+  }
+  [[nodiscard]] std::string vrml(bool v97) const {
+    std::ostringstream out;
+    out.precision(17);
+    const double one = type == "directional" ? 100.0 : 100.0 * half_size * half_size;
+    const std::string name = type == "point" ? "PointLight" : type == "spot" ? "SpotLight" : "DirectionalLight";
+    const glm::dvec3 p = in_file(at), d = in_file(direction);
+    std::ostringstream fields;
+    fields.precision(17);
+    fields << name << " { intensity " << intensity / one;
+    if (type != "directional") { fields << " location " << p.x << ' ' << p.y << ' ' << p.z; }
+    if (type != "point") { fields << " direction " << d.x << ' ' << d.y << ' ' << d.z; }
+    if (type == "spot") { fields << " cutOffAngle " << outer << (v97 ? " beamWidth " + std::to_string(inner) : " dropOffRate 0.5"); }
+    fields << " }";
+    const std::string points = "point [ 0 0 0, 0 0 20, 20 0 20, 20 0 0 ]", faces = "coordIndex [ 0, 1, 2, 3, -1 ]";
+    if (v97) {
+      out << "#VRML V2.0 utf8\n"
+          << fields.str() << " Shape { geometry IndexedFaceSet { coord Coordinate { " << points << " } " << faces << " } }";
+    } else {
+      out << "#VRML V1.0 ascii\nSeparator { " << fields.str() << " ShapeHints { vertexOrdering COUNTERCLOCKWISE } Coordinate3 { " << points
+          << " } IndexedFaceSet { " << faces << " } }";
+    }
+    return out.str();
+  }
+  static glm::dvec3 in_file(const glm::dvec3& p) { return {p.x, p.z, -p.y}; }
+};
+
+// The irradiance of points of the floor.
+class Floor {
+ public:
+  explicit Floor(const apps::SceneFile& file) : outcome_(radiosity::solve(file.scene, options())) {
+    REQUIRE(outcome_.solution);
+    light_.emplace(file.scene, outcome_.solution->mesh, outcome_.solution->frame);
+  }
+  [[nodiscard]] double irradiance(const glm::dvec3& at) {
+    const radiosity::Frame& frame = outcome_.solution->frame;
+    const glm::dvec3 p = (at - frame.centre) * frame.scale, up{0, 0, 1};
+    const std::array<glm::dvec3, 4> contour{p, p, p, p};
+    radiosity::LitRegion region{light_->direct(), {contour, 0, 0.0}, up};
+    return region.irradiance(p, up).x;
+  }
+
+ private:
+  static radiosity::Options options() { return {.epsilon = 0.5, .min_area = 0.01, .audit_points = 0}; }
+
+  radiosity::Outcome outcome_;
+  std::optional<radiosity::FinalGather> light_;
+};
+
+std::vector<apps::SceneFile> in_all_formats(const Light& light) {
+  std::vector<apps::SceneFile> files;
+  files.push_back(models::scene("a.gltf", light.gltf()));
+  files.push_back(models::scene("a.wrl", light.vrml(false)));
+  files.push_back(models::scene("a.wrl", light.vrml(true)));
+  return files;
+}
+
+struct Dice {
+  unsigned seed = std::random_device{}();
+  std::mt19937_64 random{seed};
+  double between(double a, double b) { return std::uniform_real_distribution<double>{a, b}(random); }
+  glm::dvec3 above_floor(double lowest, double highest) {
+    return {between(5.0, 15.0), between(-15.0, -5.0), std::exp(between(std::log(lowest), std::log(highest)))};
+  }
+  glm::dvec3 on_floor() { return {between(0.5, 19.5), between(-19.5, -0.5), 0.0}; }
+  glm::dvec3 downwards(double steepest_sine) {
+    const double angle = between(0.0, 2.0 * std::numbers::pi), aside = between(0.0, steepest_sine);
+    return {aside * std::cos(angle), aside * std::sin(angle), -std::sqrt(1.0 - aside * aside)};
+  }
+};
+
+}  // namespace
+
+TEST_CASE("a light at a point: the floor gets I cos t / r^2, and the lamp never sticks in it") {
+  Dice dice;
+  INFO("seed " << dice.seed);
+  for (int round = 0; round < 4; ++round) {
+    Light light;
+    light.at = dice.above_floor(0.02, 4.0);
+    light.intensity = dice.between(1.0, 1000.0);
+    for (const apps::SceneFile& file : in_all_formats(light)) {
+      CHECK(noted(file.notes, "1 light has no surface: a lamp of"));
+      CHECK(file.warnings.empty());
+      const raycast::Box lamp = file.scene.objects.back().shape->bounds();
+      CHECK(lamp.lo.z > 0.85 * light.at.z);
+      CHECK(lamp.size().x <= 0.0401);
+      Floor floor(file);
+      for (int k = 0; k < 20; ++k) {
+        const glm::dvec3 p = dice.on_floor(), way = light.at - p;
+        CAPTURE(round, light.at.x, light.at.y, light.at.z, p.x, p.y);
+        const double r = glm::length(way);
+        CHECK(floor.irradiance(p) == test::Approx(light.intensity * way.z / (r * r * r)).epsilon(0.02));
+      }
+    }
+  }
+}
+
+TEST_CASE("a light in the floor hangs close to it") {
+  Light light;
+  light.at = {8.0, -9.0, 0.0};
+  light.intensity = 10.0;
+  for (const apps::SceneFile& file : in_all_formats(light)) {
+    const raycast::Box lamp = file.scene.objects.back().shape->bounds();
+    const bool single = file.scene.objects.size() == 2;  // else the floor has two sides
+    CHECK((lamp.lo.z > 0.0 || (!single && lamp.hi.z < 0.0)));
+    CHECK(std::max(std::abs(lamp.lo.z), std::abs(lamp.hi.z)) < 0.02);
+  }
+}
+
+TEST_CASE("a directional light: everywhere the floor gets E cos t, from a sun half a degree wide") {
+  Dice dice;
+  INFO("seed " << dice.seed);
+  for (int round = 0; round < 4; ++round) {
+    Light light;
+    light.type = "directional";
+    light.direction = dice.downwards(0.95);
+    light.intensity = dice.between(1.0, 1000.0);
+    for (const apps::SceneFile& file : in_all_formats(light)) {
+      CHECK(noted(file.notes, "1 directional light became a sun half a degree wide"));
+      CHECK_FALSE(noted(file.notes, "studio"));
+      Floor floor(file);
+      for (int k = 0; k < 20; ++k) {
+        const glm::dvec3 p = dice.on_floor();
+        CAPTURE(round, light.direction.x, light.direction.y, p.x, p.y);
+        CHECK(floor.irradiance(p) == test::Approx(light.intensity * -light.direction.z).epsilon(0.02));
+      }
+    }
+  }
+}
+
+TEST_CASE("a spot light: in its inner cone the floor gets I cos t / r^2, outside of its cone nothing") {
+  Dice dice;
+  INFO("seed " << dice.seed);
+  for (int round = 0; round < 6; ++round) {
+    Light light;
+    light.type = "spot";
+    light.at = dice.above_floor(1.0, 4.0);
+    light.direction = dice.downwards(0.7);
+    light.intensity = dice.between(1.0, 1000.0);
+    light.outer = dice.between(0.1, 1.4);
+    light.inner = dice.between(0.2, 0.8) * light.outer;
+    const auto expected = [&](const glm::dvec3& p) {
+      const glm::dvec3 way = light.at - p;
+      return light.intensity * way.z / std::pow(glm::length(way), 3.0);
+    };
+    const glm::dvec3 axis = glm::normalize(light.direction), middle = light.at - light.at.z / axis.z * axis;
+    int beyond = 0;
+    for (const apps::SceneFile& file : in_all_formats(light)) {
+      CHECK(noted(file.notes, "1 spot light became a small lamp in a black cup"));
+      CHECK(noted(file.warnings, "1 spot light fades from the inner to the outer cone"));
+      Floor floor(file);
+      CAPTURE(round, light.at.z, axis.x, axis.y, light.inner, light.outer);
+      CHECK(floor.irradiance(middle) == test::Approx(expected(middle)).epsilon(0.02));
+      for (int k = 0; k < 100; ++k) {
+        const glm::dvec3 p = dice.on_floor(), way = glm::normalize(p - light.at);
+        const double angle = std::acos(std::clamp(glm::dot(way, axis), -1.0, 1.0));
+        CAPTURE(p.x, p.y, angle);
+        if (angle > light.outer + 0.05) {
+          ++beyond;
+          CHECK(floor.irradiance(p) <= 1e-3 * expected(p));
+        } else {
+          CHECK(floor.irradiance(p) <= 1.02 * expected(p));
+        }
+      }
+    }
+    CHECK(beyond > 0);
+    // Within the inner cone, which VRML 1.0 has not.
+    Floor floor(models::scene("a.gltf", light.gltf()));
+    for (int k = 0; k < 20; ++k) {
+      const double aside = std::tan(dice.between(0.0, 0.95 * light.inner)), around = dice.between(0.0, 2.0 * std::numbers::pi);
+      const glm::dvec3 u = glm::normalize(glm::cross(axis, {1.0, 0.2, 0.1})), v = glm::cross(axis, u);
+      const glm::dvec3 way = glm::normalize(axis + aside * (std::cos(around) * u + std::sin(around) * v));
+      const glm::dvec3 p = light.at - light.at.z / way.z * way;
+      if (way.z > -0.1 || p.x < 0.5 || p.x > 19.5 || p.y > -0.5 || p.y < -19.5) { continue; }
+      CAPTURE(round, light.inner, light.outer, aside, p.x, p.y);
+      CHECK(floor.irradiance(p) == test::Approx(expected(p)).epsilon(0.02));
+    }
+  }
+}
