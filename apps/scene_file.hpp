@@ -63,6 +63,7 @@ struct SceneFile {
   std::vector<radiosity::Camera> cameras;
   std::vector<std::string> notes;     // about files of other formats: what was changed or read differently
   std::vector<std::string> warnings;  // about such files: what shines otherwise than the file says
+  std::vector<std::uint32_t> suns;    // objects made for directional lights: far away, so exported meshes leave them out
   std::string text;                   // the file itself, for an output that contains it
   std::vector<FileBeside> beside;
   std::shared_ptr<GivenPolygons> given;  // only for files of other formats, else null

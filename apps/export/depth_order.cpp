@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "apps/export/export_mesh.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <map>
+#include <optional>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -85,6 +90,29 @@ radiosity::Mesh in_depth_order(const SceneFile& file, const radiosity::Solution&
       if (is_new) { out.positions.push_back(place); }
       vertex = known->second;
     }
+  }
+  return out;
+}
+
+std::optional<radiosity::Mesh> without_suns(const SceneFile& file, const radiosity::Mesh& mesh) {
+  if (file.suns.empty()) { return std::nullopt; }
+  const std::vector<radiosity::InputSurface> inputs = radiosity::surfaces(file.scene);
+  constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+  std::vector<std::uint32_t> number(mesh.positions.size(), none);
+  radiosity::Mesh out;
+  for (radiosity::MeshFace face : mesh.faces) {
+    if (std::find(file.suns.begin(), file.suns.end(), inputs[face.surface].object) != file.suns.end()) { continue; }
+    const std::uint32_t first = std::exchange(face.first_corner, static_cast<std::uint32_t>(out.corners.size()));
+    for (std::uint32_t c = first; c < first + face.corner_count; ++c) {
+      radiosity::MeshCorner corner = mesh.corners[c];
+      if (number[corner.vertex] == none) {
+        number[corner.vertex] = static_cast<std::uint32_t>(out.positions.size());
+        out.positions.push_back(mesh.positions[corner.vertex]);
+      }
+      corner.vertex = number[corner.vertex];
+      out.corners.push_back(corner);
+    }
+    out.faces.push_back(face);
   }
   return out;
 }

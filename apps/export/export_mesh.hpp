@@ -91,6 +91,10 @@ extern const ExportFormat glb, obj;  // each defined in a file of this folder
 // lamps in the plane of a ceiling slightly forwards. The distance is 1e-4 of the scene's diameter.
 [[nodiscard]] radiosity::Mesh in_depth_order(const SceneFile& file, const radiosity::Solution& solution, const radiosity::Mesh& mesh);
 
+// The mesh without the suns that were made for directional lights. They are so far away that other programs, which show all of a mesh,
+// would show a dot. Nothing if there are none.
+[[nodiscard]] std::optional<radiosity::Mesh> without_suns(const SceneFile& file, const radiosity::Mesh& mesh);
+
 // --- PLY (ply.cpp)
 
 // The solution as a binary little-endian PLY file (Turk 1994) that mesh viewers display directly.

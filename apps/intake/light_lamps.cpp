@@ -180,7 +180,10 @@ class LampMaker {
     const double radius = distance * std::tan(half_width);
     const double share = radius * radius / (radius * radius + distance * distance);
     const double unit = light.absolute ? 1.0 : 100.0;
-    if (take(raycast::Disk::make(middle + distance * up, -up, radius).object, unit / share * light.intensity, "disk")) { ++suns_; }
+    if (take(raycast::Disk::make(middle + distance * up, -up, radius).object, unit / share * light.intensity, "disk")) {
+      ++suns_;
+      file_.suns.push_back(static_cast<std::uint32_t>(file_.scene.objects.size() - 1));
+    }
   }
 
   bool take(std::shared_ptr<const raycast::Object> shape, const radiosity::Color& exitance, const char* kind) {

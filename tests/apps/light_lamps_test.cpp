@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <numbers>
 #include <optional>
 #include <random>
@@ -22,6 +23,7 @@
 #include <radiosity/result/outcome.hpp>
 #include <radiosity/scene/options.hpp>
 
+#include "apps/export/export_mesh.hpp"
 #include "catch.hpp"
 #include "gltf_sample.hpp"
 #include "models.hpp"
@@ -175,6 +177,7 @@ TEST_CASE("a directional light: everywhere the floor gets E cos t, from a sun ha
     for (const apps::SceneFile& file : in_all_formats(light)) {
       CHECK(noted(file.notes, "1 directional light became a sun half a degree wide"));
       CHECK_FALSE(noted(file.notes, "studio"));
+      CHECK(file.suns == std::vector<std::uint32_t>{static_cast<std::uint32_t>(file.scene.objects.size() - 1)});
       Floor floor(file);
       for (int k = 0; k < 20; ++k) {
         const glm::dvec3 p = dice.on_floor();
@@ -188,20 +191,20 @@ TEST_CASE("a directional light: everywhere the floor gets E cos t, from a sun ha
 TEST_CASE("a spot light: in its inner cone the floor gets I cos t / r^2, outside of its cone nothing") {
   Dice dice;
   INFO("seed " << dice.seed);
+  int beyond = 0;
   for (int round = 0; round < 6; ++round) {
     Light light;
     light.type = "spot";
     light.at = dice.above_floor(1.0, 4.0);
     light.direction = dice.downwards(0.7);
     light.intensity = dice.between(1.0, 1000.0);
-    light.outer = dice.between(0.1, 1.4);
+    light.outer = dice.between(0.1, round == 0 ? 0.5 : 1.4);  // all of the floor may lie in a wide cone
     light.inner = dice.between(0.2, 0.8) * light.outer;
     const auto expected = [&](const glm::dvec3& p) {
       const glm::dvec3 way = light.at - p;
       return light.intensity * way.z / std::pow(glm::length(way), 3.0);
     };
     const glm::dvec3 axis = glm::normalize(light.direction), middle = light.at - light.at.z / axis.z * axis;
-    int beyond = 0;
     for (const apps::SceneFile& file : in_all_formats(light)) {
       CHECK(noted(file.notes, "1 spot light became a small lamp in a black cup"));
       CHECK(noted(file.warnings, "1 spot light fades from the inner to the outer cone"));
@@ -220,7 +223,6 @@ TEST_CASE("a spot light: in its inner cone the floor gets I cos t / r^2, outside
         }
       }
     }
-    CHECK(beyond > 0);
     // Within the inner cone, which VRML 1.0 has not.
     Floor floor(models::scene("a.gltf", light.gltf()));
     for (int k = 0; k < 20; ++k) {
@@ -233,4 +235,33 @@ TEST_CASE("a spot light: in its inner cone the floor gets I cos t / r^2, outside
       CHECK(floor.irradiance(p) == test::Approx(expected(p)).epsilon(0.02));
     }
   }
+  CHECK(beyond > 0);
+}
+
+TEST_CASE("a directional light lights no closed room: that gets a lamp") {
+  // A box with a camera in it, its sides counterclockwise from there.
+  const std::string box =
+      "ShapeHints { vertexOrdering COUNTERCLOCKWISE shapeType SOLID } Coordinate3 { point [ 0 0 0, 4 0 0, 4 3 0, 0 3 0, 0 0 5, 4 0 5, "
+      "4 3 5, 0 3 5 ] } IndexedFaceSet { coordIndex [ 0,1,2,3,-1, 4,7,6,5,-1, 0,4,5,1,-1, 3,2,6,7,-1, 0,3,7,4,-1, 1,5,6,2,-1 ] }";
+  const apps::SceneFile dark = models::scene(
+      "a.wrl",
+      "#VRML V1.0 ascii\nSeparator { DirectionalLight { direction 0.3 -1 0.2 } PerspectiveCamera { position 2 1.5 2.5 } " + box + " }");
+  CHECK(noted(dark.notes, "1 directional light became a sun"));
+  CHECK(noted(dark.notes, "nothing shines in this closed room"));
+}
+
+TEST_CASE("the mesh to export has no sun, and keeps all else") {
+  Light light;
+  light.type = "directional";
+  const apps::SceneFile file = models::scene("a.gltf", light.gltf());
+  const radiosity::Outcome outcome = radiosity::solve(file.scene, {.epsilon = 0.5, .min_area = 0.01, .audit_points = 0});
+  REQUIRE(outcome.solution);
+  const radiosity::Mesh& all = outcome.solution->shown();
+  const auto near = apps::without_suns(file, all);
+  REQUIRE(near);
+  raycast::Box box;
+  for (const glm::dvec3& p : near->positions) { box.extend(p); }
+  CHECK(glm::length(box.size() - glm::dvec3(side, side, 0.0)) < 1e-9);
+  const auto of_floor = [](const radiosity::MeshFace& face) { return face.surface == 0; };
+  CHECK(std::count_if(all.faces.begin(), all.faces.end(), of_floor) == std::ssize(near->faces));
 }
