@@ -58,7 +58,7 @@ class GatherPainter {
   void smooth_shadows(std::size_t block);
   void show(std::size_t block, const Tone& tone, Picture& picture) const;
   [[nodiscard]] FinalGather::Indirect indirect(const Fragment& fragment, const GatherRays& rays) const;
-  [[nodiscard]] IndirectPoint gather_at(const Fragment& fragment) const;
+  [[nodiscard]] IndirectPoint gather_at(const Fragment& fragment, const GatherRays& rays) const;
 
   const FinalGather& light_;
   const View& view_;
@@ -76,8 +76,8 @@ HALFLIGHT_INLINE FinalGather::Indirect GatherPainter::indirect(const Fragment& f
   return light_.indirect(fragment.place, rays, key);
 }
 
-HALFLIGHT_INLINE IndirectPoint GatherPainter::gather_at(const Fragment& fragment) const {
-  const auto found = indirect(fragment, gather_rays);
+HALFLIGHT_INLINE IndirectPoint GatherPainter::gather_at(const Fragment& fragment, const GatherRays& rays) const {
+  const auto found = indirect(fragment, rays);
   return indirect_point(found, {fragment.x, fragment.y}, fragment.place, seen_.eye().position,
                         seen_.pixel_size()(fragment.place.point.position));
 }
@@ -89,7 +89,12 @@ HALFLIGHT_INLINE bool GatherPainter::gather() {
   std::vector<IndirectPoint> found;
   std::vector<Fragment> fragments;  // in which these points lie
   double done = 0.3;
-  for (std::uint32_t stride = 16; stride > 0; stride /= 2, done += 0.07) {
+  // Every 16th pixel, every 8th and so on. The last pass gives all that is still uncovered a point of its own.
+  struct Pass {
+    std::uint32_t stride;
+    bool last;
+  };
+  for (const auto [stride, last] : {Pass{16, false}, {8, false}, {4, false}, {2, false}, {1, false}, {1, true}}) {
     const auto ask = [&](std::size_t b) {
       wanted[b].clear();
       for (std::uint32_t i = 0; i < seen_.of(b).size(); ++i) {
@@ -98,9 +103,9 @@ HALFLIGHT_INLINE bool GatherPainter::gather() {
         const auto& p = f.place.point;
         if (is_black(light_.material(f.place.surface).reflectance)) { continue; }
         if (points_.covered(f.x, f.y, p.position, p.normal, f.place.object)) { continue; }
-        // Neighbouring pixels do not get two points: even the smallest spheres cover that distance, whatever is gathered.
+        // Neighbouring pixels do not get two points in one pass: most spheres will cover that distance.
         const double apart = 2.0 * seen_.pixel_size()(p.position);
-        const bool near = std::any_of(wanted[b].begin(), wanted[b].end(), [&](std::uint32_t k) {
+        const bool near = !last && std::any_of(wanted[b].begin(), wanted[b].end(), [&](std::uint32_t k) {
           const auto& other = seen_.of(b)[k].place;
           return other.object == f.place.object && glm::dot(other.point.normal, p.normal) > 0.95 &&
                  glm::length(other.point.position - p.position) < apart;
@@ -114,13 +119,15 @@ HALFLIGHT_INLINE bool GatherPainter::gather() {
       for (const std::uint32_t i : wanted[b]) { all.emplace_back(b, i); }
     }
     found.resize(all.size());
-    const auto gather_one = [&](std::size_t k) { found[k] = gather_at(seen_.of(all[k].first)[all[k].second]); };
+    const GatherRays& rays = stride > 1 ? gather_rays : gather_rays_between;
+    const auto gather_one = [&](std::size_t k) { found[k] = gather_at(seen_.of(all[k].first)[all[k].second], rays); };
     const auto report = [&](std::size_t count) {
-      blocks_.control().report("picture", done + 0.06 * static_cast<double>(count) / static_cast<double>(all.size()));
+      blocks_.control().report("picture", done + 0.05 * static_cast<double>(count) / static_cast<double>(all.size()));
     };
     if (!parallel_in_batches(blocks_.control(), blocks_.threads(), all.size(), {1024, 8}, gather_one, report)) { return false; }
     for (const IndirectPoint& point : found) { points_.add(point); }
     for (const auto& [block, i] : all) { fragments.push_back(seen_.of(block)[i]); }
+    done += 0.06;
   }
   const auto again = [&](std::size_t i) { return indirect(fragments[i], gather_rays_again); };
   if (!points_.gather_again(blocks_.threads(), blocks_.control(), again)) { return false; }

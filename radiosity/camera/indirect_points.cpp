@@ -13,7 +13,11 @@ namespace radiosity {
 
 namespace detail {
 
-inline constexpr double least_pixels = 2.0, most_pixels = 20.0;  // limits of the radius of a point's sphere, found by measurement
+// Limits of the radius of a point's sphere, found by measurement. The lower one counts pixels as wide as they are across, the others as
+// long as a slanted surface makes them: along the slant light may change as fast as across it, and a sphere that reached further than
+// the gather allowed would carry the dark of a gap to open ceiling, or the light of a window to the wall beside it. The fit may reach
+// further, because it takes the points of so wide a sphere only if a plane explains them.
+inline constexpr double least_pixels = 1.0, most_pixels = 20.0, least_pixels_of_fit = 6.0;
 
 }  // namespace detail
 
@@ -29,8 +33,8 @@ HALFLIGHT_INLINE IndirectPoint indirect_point(const FinalGather::Indirect& found
   // Width of a pixel on the surface; limited to five times the unslanted width.
   const double footprint = pixel_size / std::max(facing, 0.2);
   const double allowed = sphere_radius(std::max(found.nearness, found.nearness_of_light), found.nearest);
-  point.radius = std::clamp(allowed, detail::least_pixels * footprint, detail::most_pixels * footprint);
-  point.widest = most_fit * point.radius;
+  point.radius = std::clamp(allowed, detail::least_pixels * pixel_size, detail::most_pixels * footprint);
+  point.widest = std::max(most_fit * point.radius, detail::least_pixels_of_fit * footprint);
   point.pixels = point.radius / pixel_size;
   point.widest_pixels = point.widest / pixel_size;
   point.gathered = found.irradiance;

@@ -274,3 +274,24 @@ TEST_CASE("the sphere of a point of indirect light ends before what few of its r
     }
   }
 }
+
+// A pixel of a slanted surface is up to five pixels long but one wide. Where the gather allows a sphere of half a pixel, as beside a window
+// or above a lamp under the ceiling, one of two such lengths carried the light of a gap over ten pixels across.
+TEST_CASE("a point of indirect light reaches at most a pixel where the gather allows less, however slanted the surface is") {
+  const auto seed = std::random_device{}();
+  INFO("seed " << seed);
+  radiosity::Random random{seed, 0};
+  for (int k = 0; k < 100; ++k) {
+    const double slant = 1.5 * random.uniform(), turn = 6.283185307179586 * random.uniform(), pixel = 0.001 + 0.1 * random.uniform();
+    const radiosity::FinalGather::Place place{{{0, 0, 0}, {0, 0, 1}}, 0, 0};
+    const glm::dvec3 eye{std::sin(slant) * std::cos(turn), std::sin(slant) * std::sin(turn), std::cos(slant)};
+    radiosity::FinalGather::Indirect found;
+    found.irradiance = Color{1.0};
+    found.nearest = 0.5 * pixel;
+    found.nearness = 1.0 / found.nearest;
+    const auto point = radiosity::indirect_point(found, {0, 0}, place, eye, pixel);
+    CAPTURE(slant, turn, pixel, point.radius);
+    CHECK(point.radius <= pixel * (1.0 + 1e-12));
+    CHECK(point.widest >= point.radius);
+  }
+}
