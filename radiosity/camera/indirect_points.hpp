@@ -2,8 +2,8 @@
 #pragma once
 
 // Interpolates indirect light over a picture from sparse points (radiosity/picture/gathered_point.hpp): dense in corners and at contacts,
-// sparse on open walls. The radius of a point's sphere is limited below and above in pixels, as is that of its fit. Points are stored by tiles of the picture. A pixel blends the points whose spheres contain it, with weights that fall to 0 at
-// their borders.
+// sparse on open walls. The radius of a point's sphere is limited below and above in pixels, as is that of its fit. Points are stored by
+// tiles of the picture. A pixel blends the points whose spheres contain it, with weights that fall to 0 at their borders.
 
 #include <array>
 #include <cstddef>
