@@ -149,8 +149,8 @@ HALFLIGHT_INLINE void LampExchange::see(Result& result, std::span<const Point> p
                                         std::uint32_t rounds, Random random) const {
   const Patch& patch = scene_.patches[to];
   const PatchEnd ground = end(to);
-  double all = 0.0;
-  double arrived = 0.0;
+  WeighedSegments first, further;
+  std::uint32_t decisive = 0;
   std::uint32_t hint = raycast::no_shape;
   for (std::uint32_t round = 0; round < rounds; ++round) {
     const auto shift = static_cast<std::uint32_t>(random.bits() & 15u);
@@ -169,15 +169,21 @@ HALFLIGHT_INLINE void LampExchange::see(Result& result, std::span<const Point> p
       segments.set(i, {x, y - x}, ground.object, scene_.hierarchy[face].object, ground.sheet, scene_.sheet(face));
     }
     const std::uint32_t occluded = scene_.objects.occluded16(segments, hint);
+    WeighedSegments& sum = round == 0 ? first : further;
     for (std::uint32_t i = 0; i < 16; ++i) {
       if (!(weights[i] > 0.0)) { continue; }
       ++result.rays.cast;
-      all += weights[i];
-      if ((occluded >> i & 1u) == 0) { arrived += weights[i]; }
+      decisive += round == 0 ? 1 : 0;
+      sum.total += weights[i];
+      if ((occluded >> i & 1u) == 0) { sum.arrived += weights[i]; }
     }
-    if (arrived == all || arrived == 0.0) { break; }
+    if (round == 0 && (first.arrived == first.total || first.arrived == 0.0)) { break; }
   }
-  result.fraction = all > 0.0 ? arrived / all : 0.0;
+  if (further.total > 0.0) {
+    result.fraction = share_of_mixed(first, further, decisive);
+  } else {
+    result.fraction = first.total > 0.0 ? first.arrived / first.total : 0.0;
+  }
 }
 
 HALFLIGHT_INLINE glm::dvec3 LampExchange::way(std::uint32_t lamp, std::uint32_t to) const {

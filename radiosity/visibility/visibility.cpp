@@ -212,6 +212,16 @@ HALFLIGHT_INLINE void set_spreads(std::span<const RoundSeen> rounds, VisibilityE
   estimate.spread_q = cells_q.spread();
 }
 
+HALFLIGHT_INLINE double share_of_mixed(const WeighedSegments& first, const WeighedSegments& further, double count) {
+  const auto mixed = [&](double share) { return 1.0 - std::pow(share, count) - std::pow(1.0 - share, count); };
+  const double by_further = mixed(further.arrived / further.total), trust = by_further * by_further;
+  const double share = (trust * first.arrived + further.arrived) / (trust * first.total + further.total);
+  constexpr double least = 1e-9;
+  if (share < least) { return 1.0 / count; }
+  if (1.0 - share < least) { return 1.0 - 1.0 / count; }
+  return (share - std::pow(share, count)) / mixed(share);
+}
+
 HALFLIGHT_INLINE VisibilityEstimate visibility(const SceneView& scene, const raycast::OccluderList& list, const PatchPair& pair,
                                                std::uint32_t rounds, Random random, std::vector<CastSegment>* seen) {
   VisibilityEstimate estimate;
@@ -221,8 +231,8 @@ HALFLIGHT_INLINE VisibilityEstimate visibility(const SceneView& scene, const ray
     return estimate;
   }
   const raycast::OccluderList known = scene.plan.shortcuts ? list : raycast::OccluderList{};
-  double total = 0.0;
-  double arrived = 0.0;
+  WeighedSegments first, further;  // of the rounds up to the one that could have been the last, and of those after it
+  std::uint64_t decisive = 0;
   std::uint32_t blocked = 0;
   brep::SmallList<RoundSeen, 16> rounds_seen;
   std::uint32_t last_occluder = raycast::no_shape;
@@ -236,18 +246,25 @@ HALFLIGHT_INLINE VisibilityEstimate visibility(const SceneView& scene, const ray
       if ((cast >> i & 1u) == 0) { continue; }
       const bool arrives = (occluded >> i & 1u) == 0;
       if (seen != nullptr) { seen->push_back({segments.at(i), arrives}); }
-      total += weights[i];
-      arrived += arrives ? weights[i] : 0.0;
+      WeighedSegments& sum = decisive > 0 ? further : first;
+      sum.total += weights[i];
+      sum.arrived += arrives ? weights[i] : 0.0;
     }
     estimate.rays.cast += static_cast<std::uint64_t>(std::popcount(cast));
     blocked += static_cast<std::uint32_t>(std::popcount(occluded));
     rounds_seen.push_back({cast, occluded, shift});
     const bool agree = blocked == 0 || blocked == estimate.rays.cast;
-    if (agree && estimate.rays.cast >= segments_per_round / 2) { break; }
+    if (decisive > 0 || estimate.rays.cast < segments_per_round / 2) { continue; }
+    if (agree) { break; }
+    decisive = estimate.rays.cast;
   }
   if (blocked > 0 && blocked < estimate.rays.cast) { set_spreads({rounds_seen.data(), rounds_seen.size()}, estimate); }
-  if (total > 0.0) {
-    estimate.fraction = arrived / total;
+  if (further.total > 0.0) {
+    estimate.fraction = share_of_mixed(first, further, static_cast<double>(decisive));
+    return estimate;
+  }
+  if (first.total > 0.0) {
+    estimate.fraction = first.arrived / first.total;
     return estimate;
   }
   estimate.fraction = highest_corners_clear(scene, known, pair) ? 1.0 : 0.0;
