@@ -94,18 +94,18 @@ HALFLIGHT_INLINE bool GatherPainter::gather() {
     std::uint32_t stride;
     bool last;
   };
-  for (const auto [stride, last] : {Pass{16, false}, {8, false}, {4, false}, {2, false}, {1, false}, {1, true}}) {
+  for (const Pass pass : {Pass{16, false}, {8, false}, {4, false}, {2, false}, {1, false}, {1, true}}) {
     const auto ask = [&](std::size_t b) {
       wanted[b].clear();
       for (std::uint32_t i = 0; i < seen_.of(b).size(); ++i) {
         const Fragment& f = seen_.of(b)[i];
-        if (f.x % stride != 0 || f.y % stride != 0) { continue; }
+        if (f.x % pass.stride != 0 || f.y % pass.stride != 0) { continue; }
         const auto& p = f.place.point;
         if (is_black(light_.material(f.place.surface).reflectance)) { continue; }
         if (points_.covered(f.x, f.y, p.position, p.normal, f.place.object)) { continue; }
         // Neighbouring pixels do not get two points in one pass: most spheres will cover that distance.
         const double apart = 2.0 * seen_.pixel_size()(p.position);
-        const bool near = !last && std::any_of(wanted[b].begin(), wanted[b].end(), [&](std::uint32_t k) {
+        const bool near = !pass.last && std::any_of(wanted[b].begin(), wanted[b].end(), [&](std::uint32_t k) {
           const auto& other = seen_.of(b)[k].place;
           return other.object == f.place.object && glm::dot(other.point.normal, p.normal) > 0.95 &&
                  glm::length(other.point.position - p.position) < apart;
@@ -119,7 +119,7 @@ HALFLIGHT_INLINE bool GatherPainter::gather() {
       for (const std::uint32_t i : wanted[b]) { all.emplace_back(b, i); }
     }
     found.resize(all.size());
-    const GatherRays& rays = stride > 1 ? gather_rays : gather_rays_between;
+    const GatherRays& rays = pass.stride > 1 ? gather_rays : gather_rays_between;
     const auto gather_one = [&](std::size_t k) { found[k] = gather_at(seen_.of(all[k].first)[all[k].second], rays); };
     const auto report = [&](std::size_t count) {
       blocks_.control().report("picture", done + 0.05 * static_cast<double>(count) / static_cast<double>(all.size()));
