@@ -111,9 +111,10 @@ class SceneMaker {
     for (const ModelMaterial& given : model_.materials) {
       radiosity::Material material{given.name, given.reflectance.value_or(radiosity::Color(options_.reflectance)), given.emission};
       open += given.reflectance ? 0 : 1;
-      const radiosity::Color lowered = glm::min(material.reflectance, radiosity::Color(most_reflectance));
-      bright += lowered == material.reflectance ? 0 : 1;
-      material.reflectance = glm::max(lowered, radiosity::Color(0.0));
+      material.reflectance = glm::max(material.reflectance, radiosity::Color(0.0));
+      const double most = radiosity::brightest(material.reflectance);
+      bright += most > most_reflectance ? 1 : 0;
+      material.reflectance *= most > most_reflectance ? white_paint / most : 1.0;
       file_.scene.materials.push_back(std::move(material));
       two_sided_.push_back(given.two_sided ? 1 : 0);
     }
@@ -123,7 +124,7 @@ class SceneMaker {
     }
     if (bright > 0) {
       note(counted(bright, "material reflects", "materials reflect") + " more than " + formatted("%g", most_reflectance) +
-           ", as no surface does: lowered to that");
+           ", as no surface does: darkened to " + formatted("%g", white_paint) + ", like white paint");
     }
   }
 

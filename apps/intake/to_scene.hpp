@@ -17,9 +17,9 @@
 
 namespace apps {
 
-// Upper limit for the reflectance of polygons of other programs: files often have white paint of reflectance 1, which no real surface
-// has, and a closed room of it would never lose its light.
-inline constexpr double most_reflectance = 0.95;
+// Upper limit for the reflectance of polygons of other programs. Files often have white of reflectance 1, which no real surface has, and a
+// closed room of it would never lose its light. It stands for white paint: a colour with a channel above the limit is scaled down to this.
+inline constexpr double most_reflectance = 0.99, white_paint = 0.95;
 
 // Limit for a file of another program, which may have an object for every thing in a town.
 inline constexpr std::size_t max_model_objects = 1'000'000;
