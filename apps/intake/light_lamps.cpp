@@ -74,12 +74,22 @@ class LampMaker {
   }
 
   void add(const std::vector<ModelLight>& lights) {
-    for (std::size_t i = 0; i < lights.size(); ++i) {
-      if (radiosity::is_black(lights[i].intensity) || !usable(lights[i])) { continue; }
-      if (lights[i].kind == ModelLight::Kind::sun) {
-        sun(lights[i]);
+    const auto is_sun = [](const ModelLight& light) { return light.kind == ModelLight::Kind::sun; };
+    const auto shines = [](const ModelLight& light) { return !radiosity::is_black(light.intensity) && usable(light); };
+    std::vector<const ModelLight*> row;
+    for (const ModelLight& light : lights) {
+      if (shines(light) && !is_sun(light)) { row.push_back(&light); }
+    }
+    // In the order of their places along a line that no building is parallel to: lamps close to each other are close in this order, too.
+    const auto before = [](const ModelLight* a, const ModelLight* b) { return std::pair{along(*a), a} < std::pair{along(*b), b}; };
+    std::sort(row.begin(), row.end(), before);
+    for (const ModelLight& light : lights) {
+      if (!shines(light)) {
+        ++left_out_;
+      } else if (is_sun(light)) {
+        sun(light);
       } else {
-        lamp(lights, i);
+        lamp(row, static_cast<std::size_t>(std::lower_bound(row.begin(), row.end(), &light, before) - row.begin()));
       }
     }
     tell();
@@ -90,6 +100,8 @@ class LampMaker {
     glm::dvec3 at{0.0};
     double free = 0.0;  // the way to the next surface
   };
+
+  static double along(const ModelLight& light) { return glm::dot(light.position, glm::normalize(glm::dvec3{1.0, 0.618, 0.382})); }
 
   static bool usable(const ModelLight& light) {
     const bool turned = light.kind == ModelLight::Kind::point || glm::length(light.direction) > 0.0;
@@ -123,23 +135,32 @@ class LampMaker {
     return place;
   }
 
-  void lamp(const std::vector<ModelLight>& lights, std::size_t i) {
-    const ModelLight& light = lights[i];
+  // Makes a lamp for row[i], and for point lights at the same place that come after it.
+  void lamp(const std::vector<const ModelLight*>& row, std::size_t i) {
+    const ModelLight& light = *row[i];
+    constexpr double most = 0.02, of_free = 0.1;  // limits of the radius: in metres, and relative to the way to what is next
+    const double same = 1e-6 * size_, reach = std::max(most / of_free, same);
+    const auto near = [&](std::size_t k) { return std::abs(along(*row[k]) - along(light)) <= reach; };
+    const auto way = [&](std::size_t k) { return glm::length(row[k]->position - light.position); };
+    const auto is_part = [&](std::size_t k) {
+      const bool balls = light.kind == ModelLight::Kind::point && row[k]->kind == ModelLight::Kind::point;
+      return balls && row[k]->absolute == light.absolute && way(k) <= same;
+    };
+    double free = size_;
+    for (std::size_t k = i; k > 0 && near(k - 1); --k) {
+      if (is_part(k - 1)) { return; }
+      if (way(k - 1) > same) { free = std::min(free, way(k - 1)); }
+    }
     radiosity::Color intensity = light.intensity;
-    Place place = free_place(light);
-    for (std::size_t k = 0; k < lights.size(); ++k) {
-      if (k == i || lights[k].kind == ModelLight::Kind::sun) { continue; }
-      const double way = glm::length(lights[k].position - light.position);
-      const bool balls = light.kind == ModelLight::Kind::point && lights[k].kind == ModelLight::Kind::point;
-      if (way > 1e-6 * size_) {
-        place.free = std::min(place.free, way);
-      } else if (balls && lights[k].absolute == light.absolute) {
-        if (k < i) { return; }  // it is part of that one
-        intensity += lights[k].intensity;
+    for (std::size_t k = i + 1; k < row.size() && near(k); ++k) {
+      if (is_part(k)) {
+        intensity += row[k]->intensity;
+      } else if (way(k) > same) {
+        free = std::min(free, way(k));
       }
     }
-    constexpr double most = 0.02;  // metres
-    const double radius = std::min({most, 0.01 * size_, 0.1 * place.free});
+    const Place place = free_place(light);
+    const double radius = std::min({most, 0.01 * size_, of_free * std::min(free, place.free)});
     intensity *= light.absolute ? 1.0 : 100.0 * 0.25 * size_ * size_;
     if (light.kind == ModelLight::Kind::spot) { return spot(light, place.at, radius, intensity); }
     if (take(raycast::Sphere::make(place.at, radius).object, intensity / (radius * radius), "sphere")) {
@@ -187,7 +208,10 @@ class LampMaker {
   }
 
   bool take(std::shared_ptr<const raycast::Object> shape, const radiosity::Color& exitance, const char* kind) {
-    if (!shape || !(radiosity::brightest(exitance) < 1e100)) { return false; }
+    if (!shape || !(radiosity::brightest(exitance) < 1e100)) {
+      ++left_out_;
+      return false;
+    }
     const auto material = static_cast<std::uint32_t>(file_.scene.materials.size());
     file_.scene.materials.push_back({"light", radiosity::Color(0.0), exitance});
     file_.scene.objects.push_back({"light", std::move(shape), {}, {material}});
@@ -198,6 +222,10 @@ class LampMaker {
   void tell() const {
     const auto note = [&](std::string sentence) { file_.notes.push_back(std::move(sentence)); };
     const auto warn = [&](std::string sentence) { file_.warnings.push_back(std::move(sentence)); };
+    if (left_out_ > 0) {
+      note(counted(left_out_, "light is left out: it has", "lights are left out: they have") +
+           " no intensity, place or direction with which one can compute");
+    }
     if (balls_ > 0) {
       note(counted(balls_, "light has no surface: a lamp", "lights have no surface: lamps") + " of " + radiosity::length_text(widest_) +
            " across");
@@ -219,7 +247,7 @@ class LampMaker {
   std::unique_ptr<raycast::Scene> sky_;  // what shines all over
   double size_ = 0.0, widest_ = 0.0;
   std::optional<std::uint32_t> blind_;  // the material
-  std::size_t balls_ = 0, spots_ = 0, suns_ = 0, in_sky_ = 0;
+  std::size_t balls_ = 0, spots_ = 0, suns_ = 0, in_sky_ = 0, left_out_ = 0;
 };
 
 }  // namespace

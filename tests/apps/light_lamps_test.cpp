@@ -166,6 +166,47 @@ TEST_CASE("a light in the floor hangs close to it") {
   }
 }
 
+TEST_CASE("lights at one place are one lamp, lights close to each other have smaller ones, and what cannot shine is told") {
+  // Of VRML, a relative intensity of 1 is 100 W/m2 at half the size of the floor.
+  const auto taken = [](const std::string& lights) {
+    return models::scene("a.wrl", "#VRML V1.0 ascii\nSeparator { " + lights +
+                                      " Coordinate3 { point [ 0 0 0, 0 0 20, 20 0 20, 20 0 0 ] } IndexedFaceSet { coordIndex "
+                                      "[ 0, 1, 2, 3, -1 ] } }");
+  };
+  const auto lamps = [](const apps::SceneFile& file) {
+    return std::count_if(file.scene.objects.begin(), file.scene.objects.end(),
+                         [](const radiosity::SceneObject& object) { return object.name.substr(0, 5) == "light"; });
+  };
+  const auto power = [](const apps::SceneFile& file) {
+    double sum = 0.0;
+    for (const radiosity::SceneObject& object : file.scene.objects) {
+      const double radius = 0.5 * object.shape->bounds().size().x;
+      if (object.name.substr(0, 5) == "light") { sum += radius * radius * file.scene.materials[object.material[0]].emission.x; }
+    }
+    return sum;
+  };
+  Dice dice;
+  INFO("seed " << dice.seed);
+  std::string same, apart;
+  const double gap = dice.between(0.01, 0.15);
+  for (int k = 0; k < 20; ++k) {
+    const auto at = [&](double x) { return "PointLight { intensity 0.5 location " + std::to_string(x) + " 3 10 } "; };
+    same += at(10.0);
+    apart += at(5.0 + gap * k);
+  }
+  CHECK(lamps(taken(same)) == 1);
+  CHECK(power(taken(same)) == test::Approx(20 * 0.5 * 100.0 * half_size * half_size).epsilon(1e-9));
+  const apps::SceneFile row = taken(apart);
+  CHECK(lamps(row) == 20);
+  CHECK(power(row) == test::Approx(power(taken(same))).epsilon(1e-9));
+  for (const radiosity::SceneObject& object : row.scene.objects) {
+    if (object.name.substr(0, 5) == "light") { CHECK(object.shape->bounds().size().x == test::Approx(0.2 * gap).epsilon(1e-3)); }
+  }
+  const apps::SceneFile dark =
+      taken("PointLight { intensity 0 } SpotLight { direction 0 0 0 } DirectionalLight { direction 0 0 0 } " + same);
+  CHECK(noted(dark.notes, "3 lights are left out"));
+}
+
 TEST_CASE("a directional light: everywhere the floor gets E cos t, from a sun half a degree wide") {
   Dice dice;
   INFO("seed " << dice.seed);
@@ -257,11 +298,10 @@ TEST_CASE("the mesh to export has no sun, and keeps all else") {
   const radiosity::Outcome outcome = radiosity::solve(file.scene, {.epsilon = 0.5, .min_area = 0.01, .audit_points = 0});
   REQUIRE(outcome.solution);
   const radiosity::Mesh& all = outcome.solution->shown();
-  const auto near = apps::without_suns(file, all);
-  REQUIRE(near);
+  const radiosity::Mesh near = apps::without_suns(file, all);
   raycast::Box box;
-  for (const glm::dvec3& p : near->positions) { box.extend(p); }
+  for (const glm::dvec3& p : near.positions) { box.extend(p); }
   CHECK(glm::length(box.size() - glm::dvec3(side, side, 0.0)) < 1e-9);
   const auto of_floor = [](const radiosity::MeshFace& face) { return face.surface == 0; };
-  CHECK(std::count_if(all.faces.begin(), all.faces.end(), of_floor) == std::ssize(near->faces));
+  CHECK(std::count_if(all.faces.begin(), all.faces.end(), of_floor) == std::ssize(near.faces));
 }
