@@ -35,15 +35,15 @@ std::string encoded(const radiosity::Picture& picture, RenderFormat format, cons
   return format == RenderFormat::png ? to_png(picture, tone) : format == RenderFormat::hdr ? to_hdr(picture) : to_pfm(picture);
 }
 
-// The mesh to export; also appends its lightmap to the outputs if one is requested.
+// The mesh to export; also appends its lightmap to the outputs if one is requested, which has a rectangle for each face, suns included.
 std::optional<ExportMesh> exported_mesh(const RenderOptions& options, const SceneFile& file, const radiosity::Solution& solution,
                                         const radiosity::Tone& tone, std::vector<RenderOutput>& outputs, Report& report) {
-  const std::optional<radiosity::Mesh> near = options.onto_input ? std::nullopt : without_suns(file, solution.shown());
-  std::optional<ExportMesh> mesh = options.onto_input ? given_mesh(file, solution)
-                                                      : solution_mesh(file, solution,
-                                                                      !options.lightmap.empty() ? solution.mesh
-                                                                      : near                    ? *near
-                                                                                                : solution.shown());
+  std::optional<ExportMesh> mesh;
+  if (options.onto_input) {
+    mesh = given_mesh(file, solution);
+  } else {
+    mesh = solution_mesh(file, solution, options.lightmap.empty() ? without_suns(file, solution.shown()) : solution.mesh);
+  }
   if (!mesh || options.lightmap.empty()) { return mesh; }
   const std::optional<LightTexture> texture = options.onto_input ? given_texture(file, solution, tone, options.texel, *mesh)
                                                                  : solution_texture(solution, tone, options.texel, *mesh);
@@ -246,10 +246,9 @@ std::optional<std::vector<RenderOutput>> encode(Artist& artist, const radiosity:
     } else if (format == RenderFormat::exported) {
       if (exported) { bytes = export_format(path)->write(*exported, tone); }
     } else {
-      const std::optional<radiosity::Mesh> near = without_suns(file, solution.shown());
       bytes = options.onto_input && exported
                   ? to_ply(*exported, tone)
-                  : to_ply(in_depth_order(file, solution, near ? *near : solution.shown()), radiosity::surfaces(file.scene), tone);
+                  : to_ply(in_depth_order(file, solution, without_suns(file, solution.shown())), radiosity::surfaces(file.scene), tone);
     }
     outputs.push_back({path, std::move(bytes)});
     report.files.push_back(path);

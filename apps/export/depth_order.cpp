@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <limits>
 #include <map>
-#include <optional>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -94,8 +93,8 @@ radiosity::Mesh in_depth_order(const SceneFile& file, const radiosity::Solution&
   return out;
 }
 
-std::optional<radiosity::Mesh> without_suns(const SceneFile& file, const radiosity::Mesh& mesh) {
-  if (file.suns.empty()) { return std::nullopt; }
+radiosity::Mesh without_suns(const SceneFile& file, const radiosity::Mesh& mesh) {
+  if (file.suns.empty()) { return mesh; }
   const std::vector<radiosity::InputSurface> inputs = radiosity::surfaces(file.scene);
   constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
   std::vector<std::uint32_t> number(mesh.positions.size(), none);

@@ -88,12 +88,12 @@ extern const ExportFormat glb, obj;  // each defined in a file of this folder
 [[nodiscard]] bool is_covered(const radiosity::Solution& solution, std::uint32_t node);
 
 // A mesh of the solution with the same faces and corners: vertices that only covered leaves have are moved slightly backwards, those of
-// lamps in the plane of a ceiling slightly forwards. The distance is 1e-4 of the scene's diameter.
+// lamps in the plane of a ceiling slightly forwards. The distance is 1e-4 of the diameter of what is lit.
 [[nodiscard]] radiosity::Mesh in_depth_order(const SceneFile& file, const radiosity::Solution& solution, const radiosity::Mesh& mesh);
 
 // The mesh without the suns that were made for directional lights. They are so far away that other programs, which show all of a mesh,
-// would show a dot. Nothing if there are none.
-[[nodiscard]] std::optional<radiosity::Mesh> without_suns(const SceneFile& file, const radiosity::Mesh& mesh);
+// would show a dot.
+[[nodiscard]] radiosity::Mesh without_suns(const SceneFile& file, const radiosity::Mesh& mesh);
 
 // --- PLY (ply.cpp)
 
