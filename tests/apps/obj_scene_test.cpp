@@ -66,7 +66,7 @@ TEST_CASE("OBJ: furnace") {
   }
 }
 
-// Reflectances up to .99 are kept; white of 1 stands for paint. In the furnace the radiosity tells what was taken.
+// White of 1 stands for paint, of .95.
 TEST_CASE("MTL: what reflects nearly all is kept, what would reflect all is darkened with its colour kept") {
   const auto taken = [](const std::string& kd) {
     const apps::SceneFile file = scene("room.obj", models::room_obj, {{"room.mtl", "newmtl wall\nKd " + kd + "\nKe 2\n"}});
