@@ -59,6 +59,9 @@ struct Scene::Asker {
     const Search& s = searches[lane];
     return object == s.source.owner || scene.objects_[object].bounds().contains(s.ray.origin, 2 * scene.skin(s.source, object));
   }
+  [[nodiscard]] bool crosses(unsigned lane, std::uint32_t object, std::uint32_t face) const {
+    return scene.objects_[object].winding(searches[lane].ray, face) != 0;
+  }
 };
 
 // The first crossing of the ray with the object of entry i, as its spans have it. t is infinite if there is none; nothing is returned if

@@ -77,6 +77,9 @@ struct Scene::Exact {
     return scene.touches(source ? s.origin : s.at(1.0), scene.end_at(source ? segments.source[lane] : segments.target[lane]), object,
                          sheet);
   }
+  [[nodiscard]] bool crosses(unsigned lane, std::uint32_t object, std::uint32_t face) const {
+    return scene.objects_[object].winding(segments.at(lane), face) != 0;
+  }
 };
 
 // As above for one segment.
@@ -91,6 +94,9 @@ struct Scene::ExactOne {
   }
   [[nodiscard]] bool touches(unsigned, bool at_source, std::uint32_t object, std::uint32_t sheet) const {
     return scene.touches(at_source ? segment.origin : segment.at(1.0), at_source ? source : target, object, sheet);
+  }
+  [[nodiscard]] bool crosses(unsigned, std::uint32_t object, std::uint32_t face) const {
+    return scene.objects_[object].winding(segment, face) != 0;
   }
 };
 
