@@ -20,13 +20,14 @@
 
 #include <raycast/box.hpp>
 #include <raycast/bundle.hpp>
+#include <raycast/bvh.hpp>
 #include <raycast/compile.hpp>
 #include <raycast/compiled.hpp>
 #include <raycast/inline.hpp>
 #include <raycast/isa.hpp>
-#include <raycast/line_query.hpp>
 #include <raycast/object.hpp>
 #include <raycast/planar.hpp>
+#include <raycast/point_query.hpp>
 #include <raycast/ray.hpp>
 #include <raycast/spans.hpp>
 #include <raycast/tolerances.hpp>
@@ -77,6 +78,14 @@ HALFLIGHT_INLINE void Scene::compile() {
     compiler.add(i, objects_[i], outline, r.normal, left_out_[i] ? Compiler::Rays::pass : Compiler::Rays::meet);
   }
   compiler.finish(loop_limit);
+  placed_.clear();
+  std::vector<Box> boxes;
+  for (std::uint32_t i = 0; i < objects_.size(); ++i) {
+    if (left_out_[i] || objects_[i].inside()) { continue; }
+    placed_.push_back(i);
+    boxes.push_back(objects_[i].bounds());
+  }
+  places_ = Bvh(boxes);
   constexpr std::uint32_t most_planes = 32, most_curved = 3;
   for (const std::uint32_t room : compiled_.rooms) {
     const PlacedObject& object = objects_[room];
@@ -328,7 +337,8 @@ HALFLIGHT_INLINE bool Scene::covered(const glm::dvec3& p, const glm::dvec3& n, s
   const auto room_covers = [&](const Guard& room) { return covers(room.object); };
   if (std::any_of(compiled_.rooms.begin(), compiled_.rooms.end(), covers)) { return true; }
   if (std::any_of(compiled_.face_rooms.begin(), compiled_.face_rooms.end(), room_covers)) { return true; }
-  if (objects_along(compiled_, out_of_p, -near, near, covers)) { return true; }
+  const auto at_p = [&](const Box& box) { return box.contains(p, near); };
+  if (any_within(places_, at_p, [&](std::uint32_t item) { return covers(placed_[item]); })) { return true; }
   // A covered surface covers nothing: in a chain of surfaces, each coincident with the next, the first would otherwise cover the last.
   std::sort(later.begin(), later.end(), [](const Coincident& a, const Coincident& b) { return a.object > b.object; });
   return std::any_of(later.begin(), later.end(), [&](const Coincident& c) { return !covered(c.point, c.normal, c.object); });

@@ -40,6 +40,7 @@
 
 #include <raycast/box.hpp>
 #include <raycast/bundle.hpp>
+#include <raycast/bvh.hpp>
 #include <raycast/compiled.hpp>
 #include <raycast/isa.hpp>
 #include <raycast/object.hpp>
@@ -83,7 +84,7 @@ class Scene {
   [[nodiscard]] double ray_work(const Segment& ray) const;
   [[nodiscard]] std::size_t bytes() const {  // of the compiled scene, without the objects themselves
     return objects_.capacity() * sizeof(PlacedObject) + records_.capacity() * sizeof(Record) + corners_.capacity() * sizeof(glm::dvec3) +
-           walls_.capacity() * sizeof(Walls) + compiled_.bytes();
+           walls_.capacity() * sizeof(Walls) + compiled_.bytes() + places_.bytes() + placed_.capacity() * sizeof(std::uint32_t);
   }
 
   // Does anything stand between the two ends, t in (0, 1)? The owners are the objects on which the ends lie. Symmetric: exchanging ends
@@ -248,6 +249,8 @@ class Scene {
   };
   std::vector<Walls> walls_;  // by room
   Compiled compiled_;
+  std::vector<std::uint32_t> placed_;  // the objects that are no rooms and are not left out
+  Bvh places_;                         // of their bounds: a search around a point need not visit the faces of meshes
   OtherCaster other_;
   Isa isa_;
   Box bounds_;
