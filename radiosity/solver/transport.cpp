@@ -64,6 +64,10 @@ HALFLIGHT_INLINE void Transport::keep_lamps(std::vector<bool> lamps) {
 HALFLIGHT_INLINE Transport::Part::Part(const Hierarchy& hierarchy, std::span<Link> of)
     : links{of}, schedule{hierarchy.size(), of}, scale(hierarchy.size(), 1.0) {
   for (const auto& round : schedule.rounds()) { round_sizes.push_back(round.size()); }
+  const auto at_cluster = [&](const Link& link) { return hierarchy[link.p].is_cluster() || hierarchy[link.q].is_cluster(); };
+  for (std::size_t k = 0; k < links.size(); ++k) {
+    if (at_cluster(links[k])) { of_clusters.push_back(k); }
+  }
 }
 
 HALFLIGHT_INLINE void Transport::add_sampled(Links& links) {
@@ -94,22 +98,17 @@ HALFLIGHT_INLINE void Transport::apply(std::size_t number, const std::vector<dou
   }
   parallel_rounds(part.round_sizes, threads_, [&](std::size_t round, std::size_t b) {
     const LinkSchedule::Block block = part.schedule.rounds()[round][b];
-    if (clusters_ == 0) {
-      carry(part.links.subspan(block.begin, block.end - block.begin), sent_, arrived_, detail::instruction_set());
-      return;
+    const auto carry_until = [&](std::size_t begin, std::size_t end) {
+      carry(part.links.subspan(begin, end - begin), sent_, arrived_, detail::instruction_set());
+    };
+    std::size_t k = block.begin;
+    for (auto of = std::lower_bound(part.of_clusters.begin(), part.of_clusters.end(), k); of != part.of_clusters.end() && *of < block.end;
+         ++of) {
+      carry_until(k, *of);
+      carry_of_cluster(part.links[*of]);
+      k = *of + 1;
     }
-    for (std::size_t k = block.begin; k < block.end; ++k) {
-      const Link& link = part.links[k];
-      if (is_cluster(link.p) || is_cluster(link.q)) {
-        const double from_p = sent_by(link.p, link.shape_p);
-        const double from_q = sent_by(link.q, link.shape_q);
-        arrive_at(link.q, link.shape_q, static_cast<double>(link.exchange) * from_p);
-        arrive_at(link.p, link.shape_p, static_cast<double>(link.exchange) * from_q);
-      } else {
-        carry(link, sent_[link.p], arrived_[link.q], link.shape_p.gradient(), link.shape_q.gradient());
-        carry(link, sent_[link.q], arrived_[link.p], link.shape_q.gradient(), link.shape_p.gradient());
-      }
-    }
+    carry_until(k, block.end);
   });
   for (std::size_t i = 0; i < x.size(); ++i) {
     if (i < above_) { hand_out_from_cluster(i); }
@@ -295,6 +294,13 @@ HALFLIGHT_INLINE void Transport::hand_out_from_cluster(std::size_t i) {
   } else {
     arrived_[i].value += exposure_->area[i] * dot_shown(node.normal, from);
   }
+}
+
+HALFLIGHT_INLINE void Transport::carry_of_cluster(const Link& link) {
+  const double from_p = sent_by(link.p, link.shape_p);
+  const double from_q = sent_by(link.q, link.shape_q);
+  arrive_at(link.q, link.shape_q, static_cast<double>(link.exchange) * from_p);
+  arrive_at(link.p, link.shape_p, static_cast<double>(link.exchange) * from_q);
 }
 
 HALFLIGHT_INLINE double Transport::sent_by(std::uint32_t i, const EndShape& shape) {

@@ -129,6 +129,7 @@ class Transport {
   // Mean radiosity that an end of a cluster link sends along it; adds power that arrives at such an end.
   [[nodiscard]] double sent_by(std::uint32_t i, const EndShape& shape);
   void arrive_at(std::uint32_t i, const EndShape& shape, double power);
+  void carry_of_cluster(const Link& link);  // in both directions; one of its ends is a cluster
 
   void keep_lamps(std::vector<bool> lamps);
 
@@ -138,7 +139,8 @@ class Transport {
     std::span<const Link> links;
     LinkSchedule schedule;
     std::vector<std::size_t> round_sizes;
-    std::vector<double> scale;  // D, at the leaves
+    std::vector<std::size_t> of_clusters;  // the places of links with an end on a cluster, ascending; few, so the others go in runs
+    std::vector<double> scale;             // D, at the leaves
   };
   // Adds to y the light carried by a part.
   void apply(std::size_t part, const std::vector<double>& x, std::vector<double>& y);
