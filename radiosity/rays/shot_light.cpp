@@ -35,7 +35,7 @@ HALFLIGHT_INLINE ShotLight::ShotLight(const DiscreteScene& scene, const LeafLoca
     counts[i] = static_cast<std::uint32_t>(std::floor(until) - before);
     density_[i] = counts[i] > 0 ? static_cast<double>(counts[i]) / area[i] : 0.0;
   }
-  const StoredRays cast = cast_rays(scene, locator, counts);
+  const StoredRays cast = cast_rays(scene, locator, counts, RayUse::shots);
   for (std::uint32_t i = 0; i < hierarchy.size(); ++i) {
     for (const StoredRay& ray : cast.of(i)) {
       if (ray.to == no_node) { continue; }

@@ -178,7 +178,7 @@ class Spacing {
   [[nodiscard]] StoredRays cast(SpacingResult& result) const {
     std::vector<std::uint32_t> counts(scene_.hierarchy.size(), 0);
     for (const std::uint32_t i : open_) { counts[i] = rays_each; }
-    StoredRays rays = cast_rays(scene_, LeafLocator{scene_.hierarchy, scene_.patches, scene_.inputs.size()}, counts);
+    StoredRays rays = cast_rays(scene_, LeafLocator{scene_.hierarchy, scene_.patches, scene_.inputs.size()}, counts, RayUse::spacing);
     result.rays += rays.size();
     result.cancelled = scene_.control.cancelled();
     return rays;

@@ -47,12 +47,12 @@ HALFLIGHT_INLINE double StoredRays::nearness(std::size_t node, double shortest) 
 namespace detail {
 
 // A key for each node by its position in the hierarchy, independent of the order of splits, so that the rays of a leaf depend on the leaf
-// alone.
-[[nodiscard]] HALFLIGHT_INLINE std::vector<std::uint64_t> keys_of(const Hierarchy& hierarchy) {
+// and their use alone.
+[[nodiscard]] HALFLIGHT_INLINE std::vector<std::uint64_t> keys_of(const Hierarchy& hierarchy, RayUse use) {
   std::vector<std::uint64_t> keys(hierarchy.size(), 0);
   for (std::size_t i = 0; i < hierarchy.size(); ++i) {  // parents before children
     const Node& node = hierarchy[i];
-    if (is_input_face(hierarchy, i)) { keys[i] = scramble(i); }
+    if (is_input_face(hierarchy, i)) { keys[i] = scramble(i | static_cast<std::uint64_t>(use) << 32); }
     for (std::uint32_t k = 0; k < node.child_count && !node.is_cluster(); ++k) { keys[node.first_child + k] = scramble(keys[i] + k); }
   }
   return keys;
@@ -139,9 +139,10 @@ HALFLIGHT_INLINE void cast_from(const DiscreteScene& scene, const LeafLocator& l
 
 }  // namespace detail
 
-HALFLIGHT_INLINE StoredRays cast_rays(const DiscreteScene& scene, const LeafLocator& locator, const std::vector<std::uint32_t>& counts) {
+HALFLIGHT_INLINE StoredRays cast_rays(const DiscreteScene& scene, const LeafLocator& locator, const std::vector<std::uint32_t>& counts,
+                                      RayUse use) {
   StoredRays rays{counts, scene.budget.arrays};
-  const std::vector<std::uint64_t> keys = detail::keys_of(scene.hierarchy);
+  const std::vector<std::uint64_t> keys = detail::keys_of(scene.hierarchy, use);
   parallel_in_batches(scene.control, scene.threads, counts.size(), {1 << 12, 16}, [&](std::size_t i) {
     if (counts[i] > 0) { detail::cast_from(scene, locator, static_cast<std::uint32_t>(i), keys[i], rays.of(i)); }
   });

@@ -50,9 +50,15 @@ class StoredRays {
 // 400 million rays take 60 GB when links are made of them; a run that asks for more is refused instead of exhausting the memory.
 inline constexpr std::uint64_t ray_limit = 400'000'000;
 
+// What rays are cast for. Rays for different uses are independent of each other: if the number of a node's rays depended on what some of
+// them meet, their mean would be too low, because nodes that miss a small bright thing by chance would get few more rays, and nodes that
+// meet it many.
+enum class RayUse : std::uint64_t { links, spacing, shots };
+
 // Casts counts[i] rays from node i, from the exposed part of its leaves. If exposure is not known yet, only leaves may cast, and rays
 // whose start is buried are left out. Ends early, with rays missing, when the scene's control is cancelled.
-[[nodiscard]] StoredRays cast_rays(const DiscreteScene& scene, const LeafLocator& locator, const std::vector<std::uint32_t>& counts);
+[[nodiscard]] StoredRays cast_rays(const DiscreteScene& scene, const LeafLocator& locator, const std::vector<std::uint32_t>& counts,
+                                   RayUse use = RayUse::links);
 
 }  // namespace radiosity
 
