@@ -256,7 +256,8 @@ class GltfReader {
     const auto kind = type == "directional" ? ModelLight::Kind::sun : type == "spot" ? ModelLight::Kind::spot : ModelLight::Kind::point;
     const double inner = given["spot"]["innerConeAngle"].number(0.0);
     const double outer = given["spot"]["outerConeAngle"].number(0.25 * std::numbers::pi);
-    model_.lights.push_back({kind, glm::dvec3(matrix[3]), intensity, true, -glm::dvec3(matrix[2]), inner, outer});
+    const bool ends = kind != ModelLight::Kind::sun && given["range"];
+    model_.lights.push_back({kind, glm::dvec3(matrix[3]), intensity, true, -glm::dvec3(matrix[2]), inner, outer, ends});
   }
 
   void camera(const JsonValue& node, const glm::dmat4& matrix) {

@@ -89,6 +89,7 @@ class LampMaker {
       } else if (is_sun(light)) {
         sun(light);
       } else {
+        fade_otherwise_ += light.fades_otherwise ? 1 : 0;
         lamp(row, static_cast<std::size_t>(std::lower_bound(row.begin(), row.end(), &light, before) - row.begin()));
       }
     }
@@ -230,6 +231,10 @@ class LampMaker {
       note(counted(balls_, "light has no surface: a lamp", "lights have no surface: lamps") + " of " + radiosity::length_text(widest_) +
            " across");
     }
+    if (fade_otherwise_ > 0) {
+      note(counted(fade_otherwise_, "light", "lights") +
+           ": not the reach and fading of the file, but those of a lamp: with the square of the distance");
+    }
     if (suns_ > 0) { note(counted(suns_, "directional light became a sun", "directional lights became suns") + " half a degree wide"); }
     if (spots_ > 0) {
       note(counted(spots_, "spot light became a small lamp in a black cup", "spot lights became small lamps in black cups"));
@@ -247,7 +252,7 @@ class LampMaker {
   std::unique_ptr<raycast::Scene> sky_;  // what shines all over
   double size_ = 0.0, widest_ = 0.0;
   std::optional<std::uint32_t> blind_;  // the material
-  std::size_t balls_ = 0, spots_ = 0, suns_ = 0, in_sky_ = 0, left_out_ = 0;
+  std::size_t balls_ = 0, spots_ = 0, suns_ = 0, in_sky_ = 0, left_out_ = 0, fade_otherwise_ = 0;
 };
 
 }  // namespace

@@ -46,6 +46,7 @@ struct ModelLight {
   bool absolute = false;
   glm::dvec3 direction{0.0, 0.0, -1.0};  // in which a spot or a sun shines, of any length
   double inner = 0.0, outer = 0.0;       // of a spot, radians from its axis: full light up to `inner`, none beyond `outer`
+  bool fades_otherwise = false;          // in its file: not with the square of the distance, or it ends at a distance
 };
 
 // A run of consecutive polygons from one place: an included file or, in formats without lines, a list. The name is empty for the file

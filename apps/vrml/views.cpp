@@ -48,6 +48,8 @@ void add_light(Model& model, const Node& node, const State& state) {
   light.outer = node.number("cutOffAngle", 0.785398);
   // VRML 1.0 lets the light fall with a power of the cosine: full light on the axis only, unless the power is 0.
   light.inner = v97 ? node.number("beamWidth", 1.570796) : node.number("dropOffRate", 0.0) > 0.0 ? 0.0 : light.outer;
+  const glm::dvec3 attenuation = node.vector("attenuation", {1.0, 0.0, 0.0});
+  light.fades_otherwise = v97 && light.kind != ModelLight::Kind::sun && (attenuation.x != 0.0 || attenuation.y != 0.0);
   model.lights.push_back(light);
 }
 

@@ -229,6 +229,22 @@ TEST_CASE("a directional light: everywhere the floor gets E cos t, from a sun ha
   }
 }
 
+TEST_CASE("lights that end at a distance in their file, or fade otherwise than with its square, are told") {
+  const auto told = [](const std::string& name, const std::string& text) {
+    return noted(models::scene(name, text).notes, "1 light: not the reach and fading of the file");
+  };
+  const auto with = [](std::string text, const std::string& before, const std::string& more) {
+    return text.insert(text.find(before), more);
+  };
+  const Light light;
+  CHECK_FALSE(told("a.gltf", light.gltf()));
+  CHECK(told("a.gltf", with(light.gltf(), "\"intensity\"", "\"range\": 3, ")));
+  CHECK_FALSE(told("a.wrl", light.vrml(false)));
+  CHECK(told("a.wrl", light.vrml(true)));  // the default is no fading at all
+  CHECK(told("a.wrl", with(light.vrml(true), "intensity", "attenuation 0 1 1 ")));
+  CHECK_FALSE(told("a.wrl", with(light.vrml(true), "intensity", "attenuation 0 0 1 ")));
+}
+
 TEST_CASE("a spot light: in its inner cone the floor gets I cos t / r^2, outside of its cone nothing") {
   Dice dice;
   INFO("seed " << dice.seed);
