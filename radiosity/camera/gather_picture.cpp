@@ -2,8 +2,6 @@
 #include <radiosity/camera/gather_picture.hpp>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -12,7 +10,6 @@
 #include <vector>
 
 #include <glm/geometric.hpp>
-#include <glm/vec2.hpp>
 
 #include <raycast/inline.hpp>
 
@@ -20,8 +17,7 @@
 #include <radiosity/camera/indirect_points.hpp>
 #include <radiosity/camera/picture_blocks.hpp>
 #include <radiosity/camera/seen_surfaces.hpp>
-#include <radiosity/camera/shadow_edges.hpp>
-#include <radiosity/direct/lit_region.hpp>
+#include <radiosity/camera/smooth_shadows.hpp>
 #include <radiosity/scene/batches.hpp>
 #include <radiosity/support/parallel.hpp>
 #include <radiosity/support/random.hpp>
@@ -37,25 +33,21 @@ class GatherPainter {
         blocks_{view.size, threads, control},
         seen_{light, view, blocks_},
         points_{view.size.width, view.size.height},
-        irradiance_(blocks_.count()),
-        lit_(std::size_t{view.size.width} * view.size.height, 0.0f) {}
+        indirect_(blocks_.count()),
+        irradiance_(blocks_.count()) {}
 
   // Finds what all pixels show. False when cancelled.
   [[nodiscard]] bool look() { return seen_.look(); }
   [[nodiscard]] bool gather();
   [[nodiscard]] bool light_up(const Tone& tone, Picture& picture) {
-    return blocks_.each_block(0.7, 0.9, [&](std::size_t b) { light_block(b); }) && blocks_.each_block(0.9, 1.0, [&](std::size_t b) {
-      smooth_shadows(b);
-      show(b, tone, picture);
-    });
+    SmoothShadows shadows{light_, view_, blocks_, seen_, indirect_, irradiance_};
+    return blocks_.each_block(0.7, 0.9, [&](std::size_t b) { light_block(b); }) && shadows.smooth(0.9, 0.99) &&
+           blocks_.each_block(0.99, 1.0, [&](std::size_t b) { show(b, tone, picture); });
   }
 
  private:
   [[nodiscard]] Color indirect_at(const Fragment& f) const;
   void light_block(std::size_t block);
-  [[nodiscard]] bool on_edge(std::uint32_t x, std::uint32_t y) const;
-  [[nodiscard]] std::vector<FinalGather::Place> places_of(const Fragment& fragment, std::span<const glm::dvec2> at) const;
-  void smooth_shadows(std::size_t block);
   void show(std::size_t block, const Tone& tone, Picture& picture) const;
   [[nodiscard]] FinalGather::Indirect indirect(const Fragment& fragment, const GatherRays& rays) const;
   [[nodiscard]] IndirectPoint gather_at(const Fragment& fragment, const GatherRays& rays) const;
@@ -65,9 +57,7 @@ class GatherPainter {
   PictureBlocks blocks_;
   SeenSurfaces seen_;
   IndirectPoints points_;
-  std::vector<std::vector<Color>> irradiance_;  // of the fragments, by block
-  std::vector<float> lit_;                      // by pixel: its irradiance, summed over the channels, if it shows one surface
-  std::array<glm::dvec2, 16> sixteen_ = SeenSurfaces::points<4>();
+  SmoothShadows::Lights indirect_, irradiance_;  // of which the first is a part
 };
 
 HALFLIGHT_INLINE FinalGather::Indirect GatherPainter::indirect(const Fragment& fragment, const GatherRays& rays) const {
@@ -143,7 +133,9 @@ HALFLIGHT_INLINE Color GatherPainter::indirect_at(const Fragment& f) const {
 HALFLIGHT_INLINE void GatherPainter::light_block(std::size_t block) {
   const std::vector<Fragment>& fragments = seen_.of(block);
   std::vector<Color>& irradiance = irradiance_[block];
+  std::vector<Color>& indirect = indirect_[block];
   irradiance.assign(fragments.size(), Color{0.0});
+  indirect = irradiance;
   std::vector<std::uint32_t> order(fragments.size());
   for (std::uint32_t i = 0; i < order.size(); ++i) { order[i] = i; }
   std::stable_sort(order.begin(), order.end(),
@@ -153,65 +145,8 @@ HALFLIGHT_INLINE void GatherPainter::light_block(std::size_t block) {
     while (end < order.size() && fragments[order[end]].place.surface == surface) { ++end; }
     if (is_black(light_.material(surface).reflectance)) { continue; }
     const auto own = std::span(order).subspan(begin, end - begin);
-    for (const std::uint32_t i : own) { irradiance[i] = indirect_at(fragments[i]); }
+    for (const std::uint32_t i : own) { indirect[i] = irradiance[i] = indirect_at(fragments[i]); }
     add_direct_light(light_, own, fragments, irradiance);
-    for (const std::uint32_t i : own) {
-      const Fragment& f = fragments[i];
-      if (seen_.surface(blocks_.pixel(f.x, f.y)) == surface) {
-        lit_[blocks_.pixel(f.x, f.y)] = static_cast<float>(irradiance[i].x + irradiance[i].y + irradiance[i].z);
-      }
-    }
-  }
-}
-
-// Does the light change much from this pixel to a neighbour on the same surface?
-HALFLIGHT_INLINE bool GatherPainter::on_edge(std::uint32_t x, std::uint32_t y) const {
-  const auto at = [&](std::uint32_t u, std::uint32_t v) { return std::size_t{v} * view_.size.width + u; };
-  const auto differs = [&](std::size_t a, std::size_t b) {
-    return seen_.surface(a) == seen_.surface(b) &&
-           std::abs(lit_[a] - lit_[b]) > static_cast<float>(change_at_edge) * std::max(lit_[a], lit_[b]);
-  };
-  const std::size_t own = at(x, y);
-  return (x > 0 && differs(own, at(x - 1, y))) || (x + 1 < view_.size.width && differs(own, at(x + 1, y))) ||
-         (y > 0 && differs(own, at(x, y - 1))) || (y + 1 < view_.size.height && differs(own, at(x, y + 1)));
-}
-
-// The places where rays through these points of the fragment's pixel meet its surface.
-HALFLIGHT_INLINE std::vector<FinalGather::Place> GatherPainter::places_of(const Fragment& fragment, std::span<const glm::dvec2> at) const {
-  std::vector<FinalGather::Place> places;
-  for (const glm::dvec2& p : at) {
-    const auto place = light_.beside(fragment.place, seen_.eye().position, view_.direction(fragment.x + p.x, fragment.y + p.y));
-    if (place) { places.push_back(*place); }
-  }
-  return places;
-}
-
-// Where the edge of a shadow runs through a pixel, replaces its direct light by the mean over the pixel. Pixels of a block
-// share the list of possible blockers.
-HALFLIGHT_INLINE void GatherPainter::smooth_shadows(std::size_t block) {
-  const std::vector<Fragment>& fragments = seen_.of(block);
-  std::vector<std::uint32_t> order;
-  for (std::uint32_t i = 0; i < fragments.size(); ++i) {
-    const Fragment& f = fragments[i];
-    if (f.share != 1.0f || f.place.surface != seen_.surface(blocks_.pixel(f.x, f.y)) || !on_edge(f.x, f.y)) { continue; }
-    if (!is_black(light_.material(f.place.surface).reflectance)) { order.push_back(i); }
-  }
-  const auto surface = [&](std::uint32_t i) { return fragments[i].place.surface; };
-  std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return surface(a) < surface(b); });
-  for (std::size_t begin = 0, end = 0; begin < order.size(); begin = end) {
-    std::vector<FinalGather::Place> all;
-    std::vector<std::vector<FinalGather::Place>> many;  // places, by pixel
-    for (; end < order.size() && surface(order[end]) == surface(order[begin]); ++end) {
-      all.push_back(fragments[order[end]].place);
-      many.push_back(places_of(fragments[order[end]], sixteen_));
-      all.insert(all.end(), many.back().begin(), many.back().end());
-    }
-    LitRegion region = light_.lit_region(all);
-    for (std::size_t k = begin; k < end; ++k) {
-      const Fragment& f = fragments[order[k]];
-      const auto direct = over_pixel(region, f.place, places_of(f, SeenSurfaces::four), many[k - begin]);
-      if (direct) { irradiance_[block][order[k]] = *direct + indirect_at(f); }
-    }
   }
 }
 

@@ -4,8 +4,9 @@
 // Renders the true objects (not the mesh) in gathered light (radiosity/picture/final_gather.hpp): direct light at every pixel, indirect
 // light at sparse points between which it is interpolated (indirect_points.hpp).
 //
-// What the rays of a pixel meet of one surface is one fragment, which is lit once (seen_surfaces.hpp). Exposure and clamping are those of
-// the mesh picture (mesh_picture.hpp). The result does not depend on the number of threads.
+// What the rays of a pixel meet of one surface is one fragment (seen_surfaces.hpp). It is lit at one place, at several where the edge of a
+// shadow crosses it (smooth_shadows.hpp). Exposure and clamping are those of the mesh picture (mesh_picture.hpp). The result does not
+// depend on the number of threads.
 
 #include <cstddef>
 #include <cstdint>

@@ -23,6 +23,7 @@ class PictureBlocks {
 
   [[nodiscard]] std::size_t count() const { return columns_ * ((size_.height + std::size_t{block_side} - 1) / block_side); }
   [[nodiscard]] std::size_t pixel(std::uint32_t x, std::uint32_t y) const { return std::size_t{y} * size_.width + x; }
+  [[nodiscard]] std::size_t block(std::uint32_t x, std::uint32_t y) const { return y / block_side * columns_ + x / block_side; }
   [[nodiscard]] unsigned threads() const { return threads_; }
   [[nodiscard]] const Control& control() const { return control_; }
 
