@@ -80,8 +80,8 @@ class Text {
     }
     if (audit_.mesh) { mesh(*audit_.mesh); }
     if (audit_.estimated_error) {
-      const bool picture = report_.options.reconstruction < radiosity::Reconstruction::constant;
-      say("estimated from links", picture ? "{estimated_error} of the picture, {estimated_leaf_error} of the leaves" : "{estimated_error}",
+      const bool smooth = report_.options.reconstruction < radiosity::Reconstruction::constant;
+      say("estimated from links", smooth ? "{estimated_error} of the surfaces, {estimated_leaf_error} of the leaves" : "{estimated_error}",
           audit_.generations > 0 ? ", after " + std::to_string(audit_.generations) + " generations" : "");
       if (!audit_.estimate_doubt.empty()) { say("", "{estimate_doubt}"); }
     }

@@ -43,13 +43,17 @@ struct ClosedNodes {
   std::vector<bool> lamps;  // by node; links with one end in them form a separate part; empty: none
 };
 
-// Limits of scales. Row sums that no scale can achieve, of a patch that sees little except one other patch, would drive the scales of
-// sampled links to 0 and infinity. Two large patches of this kind, such as facing parts of the floor and ceiling of a wide hall, need scales
-// far above and below 1 if rays to other patches happened to meet more from one of them than from the other; the upper scale would draw
-// the light of the small patches beside them away. In a closed scene a leaf under a lamp may need a small scale: if the lamp leaves
-// least_left of its horizon, its links are those of a wider node around the lamp.
+// Limits of scales. Wanted row sums are exact in closed scenes only, apart from lamps; in open scenes they are estimates, rough ones where
+// little is met, and a scale carries the error of one row into all others: with scales up to 4 the light of a sunny ground that entered a
+// room through a small window varied by a factor of 14 from seed to seed.
+//
+// Row sums that no scale can achieve, of a patch that sees little except one other patch, would drive the scales of sampled links to 0 and
+// infinity. Two large patches of this kind, such as facing parts of the floor and ceiling of a wide hall, need scales far above and below 1
+// if rays to other patches happened to meet more from one of them than from the other; the upper scale would draw the light of the small
+// patches beside them away. In a closed scene a leaf under a lamp may need a small scale: if the lamp leaves least_left of its horizon, its
+// links are those of a wider node around the lamp.
 inline constexpr double least_left = 1e-3;  // least remaining row sum beside lamps: a row must not be scaled to 0
-inline constexpr ScaleLimits scales_of_open{1.0 / 4.0, 4.0}, scales_of_closed{least_left / 4.0, 2.0};
+inline constexpr ScaleLimits scales_of_open{1.0 / 1.25, 1.25}, scales_of_closed{least_left / 4.0, 2.0};
 
 class Transport {
  public:
