@@ -50,8 +50,8 @@ struct ClosedNodes {
 // Row sums that no scale can achieve, of a patch that sees little except one other patch, would drive the scales of sampled links to 0 and
 // infinity. Two large patches of this kind, such as facing parts of the floor and ceiling of a wide hall, need scales far above and below 1
 // if rays to other patches happened to meet more from one of them than from the other; the upper scale would draw the light of the small
-// patches beside them away. In a closed scene, patches in a narrow gap beside a lamp need scales up to 3, and a leaf under a lamp may need a
-// small one: if the lamp leaves least_left of its horizon, its links are those of a wider node around the lamp.
+// patches beside them away. In a closed scene, patches in a narrow gap beside a lamp need scales up to 3, and a leaf under a lamp may need
+// a small one: if the lamp leaves least_left of its horizon, its links are those of a wider node around the lamp.
 inline constexpr double least_left = 1e-3;  // least remaining row sum beside lamps: a row must not be scaled to 0
 inline constexpr ScaleLimits scales_of_open{1.0 / 1.25, 1.25}, scales_of_closed{least_left / 4.0, 4.0};
 
