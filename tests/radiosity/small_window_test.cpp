@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 
-// Rooms that receive all their light through a small opening.
+// A room that a sunny ground lights through a small window: the power that enters is known.
 
 #include <algorithm>
 #include <cmath>
