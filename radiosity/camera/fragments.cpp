@@ -38,13 +38,14 @@ HALFLIGHT_INLINE void add_fragments(const FinalGather& light, std::uint32_t x, s
   }
   for (auto f = out.begin() + first; f != out.end(); ++f) {
     const glm::dvec3 middle = f->positions / static_cast<double>(f->share);
+    const bool whole = f->share == static_cast<float>(seen.size());
     f->share /= static_cast<float>(seen.size());
-    if (light.objects().object(f->place.object).flat()) {
+    if (whole && light.objects().object(f->place.object).flat()) {
       f->place.point = {middle, glm::normalize(f->normals)};
       continue;
     }
-    // The mean of points on a curved surface lies off the surface. The place is the point of the surface that is seen in that direction;
-    // where the surface bends away, the nearest of the points.
+    // The mean of points on a curved surface lies off the surface, and that of points on both sides of a narrow thing, like the frame of a
+    // far window, lies in it or behind it. So the place is the nearest of the points.
     double nearest = raycast::infinity;
     const FinalGather::Place of_piece = f->place;
     for (const auto& place : seen) {
@@ -55,6 +56,8 @@ HALFLIGHT_INLINE void add_fragments(const FinalGather& light, std::uint32_t x, s
         f->place.point = place->point;
       }
     }
+    if (!whole) { continue; }
+    // Nothing stands before the whole piece; the point of the surface that is seen in the direction of the mean, unless it bends away.
     const auto in_middle = light.beside(f->place, pixel_size.eye, middle - pixel_size.eye);
     if (in_middle && one_piece(f->place, *in_middle, pixel_size)) { f->place = *in_middle; }
   }
