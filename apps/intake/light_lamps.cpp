@@ -8,12 +8,14 @@
 #include <memory>
 #include <numbers>
 #include <optional>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
+#include <glm/vector_relational.hpp>
 
 #include <raycast/box.hpp>
 #include <raycast/circle.hpp>
@@ -65,12 +67,11 @@ std::shared_ptr<const raycast::Object> cup(const glm::dvec3& bottom, const glm::
 
 class LampMaker {
  public:
-  explicit LampMaker(SceneFile& file) : file_(file), things_(radiosity::placed_objects(file.scene)), size_(things_.diameter()) {
-    std::vector<raycast::PlacedObject> shining;
-    for (const radiosity::SceneObject& object : file.scene.objects) {
-      if (radiosity::shines_all_over(file.scene, object)) { shining.emplace_back(object.shape, object.placement); }
+  explicit LampMaker(SceneFile& file)
+      : file_(file), things_(radiosity::placed_objects(file.scene)), lit_(radiosity::lit_bounds(file.scene)), size_(things_.diameter()) {
+    for (std::uint32_t i = 0; i < file.scene.objects.size(); ++i) {
+      if (is_sky(file.scene.objects[i])) { sky_.push_back(i); }
     }
-    sky_ = std::make_unique<raycast::Scene>(std::move(shining));
   }
 
   void add(const std::vector<ModelLight>& lights) {
@@ -191,21 +192,51 @@ class LampMaker {
 
   void sun(const ModelLight& light) {
     constexpr double half_width = 0.25 * degree, diameters = 100.0;
-    const raycast::Box lit = radiosity::lit_bounds(file_.scene);
     const glm::dvec3 up = -glm::normalize(light.direction);
-    double distance = diameters * std::max(lit.diameter(), 1e-30);
-    const glm::dvec3 middle = lit.centre();
-    if (const auto hit = sky_->size() > 0 ? sky_->closest({middle, up}) : std::nullopt; hit && hit->t > 0.5 * lit.diameter()) {
-      distance = std::min(distance, 0.9 * hit->t);
-      ++in_sky_;
-    }
+    const double distance = diameters * std::max(lit_.diameter(), 1e-30);
+    move_sky_beyond(distance, up);
     const double radius = distance * std::tan(half_width);
     const double share = radius * radius / (radius * radius + distance * distance);
     const double unit = light.absolute ? 1.0 : 100.0;
-    if (take(raycast::Disk::make(middle + distance * up, -up, radius).object, unit / share * light.intensity, "disk")) {
+    if (take(raycast::Disk::make(lit_.centre() + distance * up, -up, radius).object, unit / share * light.intensity, "disk")) {
       ++suns_;
       file_.suns.push_back(static_cast<std::uint32_t>(file_.scene.objects.size() - 1));
     }
+  }
+
+  // What shines all over and reaches beyond all else: a dome over the scene, or a panel before a window. A lamp of a room does not.
+  [[nodiscard]] bool is_sky(const radiosity::SceneObject& object) const {
+    if (!radiosity::shines_all_over(file_.scene, object)) { return false; }
+    constexpr double beyond = 0.05;  // of the diameter of all else
+    const raycast::Box own = radiosity::placed_bounds(*object.shape, object.placement), near = lit_.grown(beyond * lit_.diameter());
+    return glm::any(glm::lessThan(own.lo, near.lo)) || glm::any(glm::greaterThan(own.hi, near.hi));
+  }
+
+  // A light from a direction is infinitely far away, and the sky of a file is not. Where the sky would hide a sun, it is enlarged from the
+  // middle of the scene until it lies beyond the sun: seen from there, it looks as before.
+  void move_sky_beyond(double distance, const glm::dvec3& up) {
+    if (sky_.empty()) { return; }
+    std::vector<raycast::PlacedObject> placed;
+    for (const std::uint32_t i : sky_) { placed.emplace_back(file_.scene.objects[i].shape, file_.scene.objects[i].placement); }
+    const raycast::Scene sky(std::move(placed));
+    constexpr int steps = 5;        // of places along each side of the scene, from which the sun must be seen
+    constexpr double margin = 1.5;  // sky beyond the sun
+    const double least = 0.05 * lit_.diameter();
+    double factor = 1.0;
+    for (int k = 0; k < steps * steps * steps; ++k) {
+      const glm::dvec3 share = (glm::dvec3(k % steps, k / steps % steps, k / steps / steps) + 0.5) / static_cast<double>(steps);
+      const glm::dvec3 from = lit_.lo + share * (lit_.hi - lit_.lo);
+      const auto hit = sky.closest({from, 2.0 * distance * up});
+      const double height = hit ? glm::dot(from + hit->t * 2.0 * distance * up - lit_.centre(), up) : 0.0;
+      if (height > least) { factor = std::max(factor, margin * distance / height); }
+    }
+    if (factor == 1.0) { return; }
+    for (const std::uint32_t i : sky_) {
+      raycast::Placement& placement = file_.scene.objects[i].placement;
+      placement.linear *= factor;
+      placement.translation = lit_.centre() + factor * (placement.translation - lit_.centre());
+    }
+    sky_moved_ *= factor;
   }
 
   bool take(std::shared_ptr<const raycast::Object> shape, const radiosity::Color& exitance, const char* kind) {
@@ -241,18 +272,22 @@ class LampMaker {
       warn(counted(spots_, "spot light fades", "spot lights fade") +
            " from the inner to the outer cone of the file as a round lamp in a black cup does");
     }
-    if (in_sky_ > 0) {
-      warn(counted(in_sky_, "sun stands", "suns stand") +
-           " just below the sky of the file: not everything is lit from the same direction and equally bright");
+    if (sky_moved_ > 1.0) {
+      std::ostringstream factor;
+      factor.precision(3);
+      factor << sky_moved_;
+      warn("the sky is enlarged by a factor of " + factor.str() +
+           " from the middle of the scene, so that it does not hide the sun: seen from elsewhere, it lies in somewhat other directions");
     }
   }
 
   SceneFile& file_;
   raycast::Scene things_;
-  std::unique_ptr<raycast::Scene> sky_;  // what shines all over
-  double size_ = 0.0, widest_ = 0.0;
+  raycast::Box lit_;                // of what is lit: without sky
+  std::vector<std::uint32_t> sky_;  // objects
+  double size_ = 0.0, widest_ = 0.0, sky_moved_ = 1.0;
   std::optional<std::uint32_t> blind_;  // the material
-  std::size_t balls_ = 0, spots_ = 0, suns_ = 0, in_sky_ = 0, left_out_ = 0, fade_otherwise_ = 0;
+  std::size_t balls_ = 0, spots_ = 0, suns_ = 0, left_out_ = 0, fade_otherwise_ = 0;
 };
 
 }  // namespace

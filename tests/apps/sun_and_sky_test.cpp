@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+// The sky of a file does not hide its suns.
+#include <cmath>
+#include <numbers>
+#include <sstream>
+#include <string>
+
+#include <glm/vec3.hpp>
+
+#include "apps/scene_file.hpp"
+#include "catch.hpp"
+#include "lit_floor.hpp"
+#include "models.hpp"
+
+using lit_floor::Dice;
+using lit_floor::Floor;
+
+namespace {
+
+// A hemisphere of radius 10 over the middle of the file, dim and one-sided, or one side of a pyramid of the same height: a panel.
+std::string dome(bool whole, int sides, int rings) {
+  std::ostringstream points, faces;
+  points.precision(17);
+  for (int ring = 0; ring <= rings; ++ring) {
+    const double above = 0.5 * std::numbers::pi * ring / rings;
+    for (int k = 0; k < sides; ++k) {
+      const double angle = 2.0 * std::numbers::pi * k / sides;
+      points << 10.0 * std::cos(above) * std::cos(angle) << ' ' << 10.0 * std::sin(above) << ' ' << 10.0 * std::cos(above) * std::sin(angle)
+             << ", ";
+      if (ring == rings || (!whole && k > 0)) { continue; }
+      const int a = ring * sides + k, b = ring * sides + (k + 1) % sides;
+      faces << a << ", " << b << ", " << b + sides << ", -1, ";
+      if (ring + 1 < rings) { faces << a << ", " << b + sides << ", " << a + sides << ", -1, "; }
+    }
+  }
+  return "Shape { appearance Appearance { material Material { diffuseColor 0 0 0 emissiveColor 1e-5 1e-5 1e-5 } } geometry IndexedFaceSet "
+         "{ "
+         "solid FALSE coord Coordinate { point [ " +
+         points.str() + " ] } coordIndex [ " + faces.str() + " ] } }";
+}
+
+}  // namespace
+
+// However close the sky comes to the ground.
+TEST_CASE("a directional light shines through the sky of its file") {
+  Dice dice;
+  INFO("seed " << dice.seed);
+  for (int round = 0; round < 8; ++round) {
+    const double half = dice.between(0.5, 7.0);
+    const glm::dvec3 d = dice.downwards(0.8);
+    const bool whole = round % 2 == 0;
+    CAPTURE(round, half, d.x, d.y, whole);
+    std::ostringstream text;
+    text.precision(17);
+    text << "#VRML V2.0 utf8\nDirectionalLight { direction " << d.x << ' ' << d.z << ' ' << -d.y
+         << " } Shape { geometry IndexedFaceSet { coord Coordinate { point [ " << -half << " 0 " << -half << ", " << -half << " 0 " << half
+         << ", " << half << " 0 " << half << ", " << half << " 0 " << -half << " ] } coordIndex [ 0, 1, 2, 3, -1 ] } } "
+         << dome(whole, 8 + 4 * round, 3 + round % 3);
+    const apps::SceneFile file = models::scene("a.wrl", text.str());
+    REQUIRE(file.suns.size() == 1);
+    if (whole) { CHECK(models::noted(file.warnings, "the sky is enlarged")); }
+    Floor floor(file);
+    for (int k = 0; k < 20; ++k) {
+      const glm::dvec3 p{dice.between(-half, half), dice.between(-half, half), 0.0};
+      CAPTURE(p.x, p.y);
+      CHECK(floor.irradiance(p) == test::Approx(100.0 * -d.z).epsilon(0.02));
+    }
+  }
+}
