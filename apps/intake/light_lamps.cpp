@@ -216,19 +216,31 @@ class LampMaker {
   // middle of the scene until it lies beyond the sun: seen from there, it looks as before.
   void move_sky_beyond(double distance, const glm::dvec3& up) {
     if (sky_.empty()) { return; }
-    std::vector<raycast::PlacedObject> placed;
-    for (const std::uint32_t i : sky_) { placed.emplace_back(file_.scene.objects[i].shape, file_.scene.objects[i].placement); }
-    const raycast::Scene sky(std::move(placed));
-    constexpr int steps = 5;        // of places along each side of the scene, from which the sun must be seen
     constexpr double margin = 1.5;  // sky beyond the sun
-    const double least = 0.05 * lit_.diameter();
+    const glm::dvec3 middle = lit_.centre(), half = 0.5 * lit_.size();
     double factor = 1.0;
+    const auto lies_at = [&](const glm::dvec3& place) {
+      const double height = glm::dot(place - middle, up);
+      if (height > 0.05 * lit_.diameter()) { factor = std::max(factor, margin * distance / height); }
+    };
+    // The box of what may hide the sun from any place meets the light on its way to the box of what is lit.
+    const raycast::SlabTest to_sun({middle, 2.0 * distance * up});
+    std::vector<raycast::PlacedObject> placed;
+    for (const std::uint32_t i : sky_) {
+      const radiosity::SceneObject& object = file_.scene.objects[i];
+      const raycast::Box box = radiosity::placed_bounds(*object.shape, object.placement);
+      double entry = 0.0;
+      if (!to_sun({box.lo - half, box.hi + half}, 0.0, 1.0, entry)) { continue; }
+      lies_at(box.centre());
+      placed.emplace_back(object.shape, object.placement);
+    }
+    if (placed.empty()) { return; }
+    const raycast::Scene sky(std::move(placed));
+    constexpr int steps = 5;  // of places along each side of the scene
     for (int k = 0; k < steps * steps * steps; ++k) {
       const glm::dvec3 share = (glm::dvec3(k % steps, k / steps % steps, k / steps / steps) + 0.5) / static_cast<double>(steps);
-      const glm::dvec3 from = lit_.lo + share * (lit_.hi - lit_.lo);
-      const auto hit = sky.closest({from, 2.0 * distance * up});
-      const double height = hit ? glm::dot(from + hit->t * 2.0 * distance * up - lit_.centre(), up) : 0.0;
-      if (height > least) { factor = std::max(factor, margin * distance / height); }
+      const raycast::Segment ray{lit_.lo + share * lit_.size(), 2.0 * distance * up};
+      if (const auto hit = sky.closest(ray)) { lies_at(ray.origin + hit->t * ray.direction); }
     }
     if (factor == 1.0) { return; }
     for (const std::uint32_t i : sky_) {
