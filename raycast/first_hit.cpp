@@ -51,7 +51,10 @@ struct Scene::Asker {
 
   float operator()(unsigned lane, std::uint32_t object) const {
     Search& s = searches[lane];
-    scene.approach(Line(s.ray), s.source, object, s.nearest);
+    if (!s.is_asked(object)) {
+      scene.approach(Line(s.ray), s.source, object, s.nearest);
+      s.set_asked(object);
+    }
     return static_cast<float>(std::min((s.nearest.limit - s.t0) / (s.t1 - s.t0), 1.0)) * limit_up + eps_limit;
   }
   // Does the origin lie on the object or near its bounds? Then an end may merely touch it.
@@ -105,7 +108,7 @@ HALFLIGHT_INLINE void Scene::decide(Search& search, const Entries& entries, floa
   for (unsigned i = 0; i < entries.count; ++i) {
     const std::uint32_t object = entries.entry[i].object;
     const auto other = [&](const Entries::Entry& e) { return e.object != object; };
-    if (!std::all_of(entries.entry, entries.entry + i, other)) { continue; }
+    if (!std::all_of(entries.entry, entries.entry + i, other) || search.is_asked(object)) { continue; }
     if (const Record& r = records_[object]; r.corner_count) {  // a certainly crossed polygon: computed as in approach()
       const double step = glm::dot(r.normal, ray.direction), t = -glm::dot(r.normal, ray.origin - r.point) / step;
       if (t <= nearest.limit) { offer(ray, Hit{t, object, 0, step < 0.0}, nearest); }

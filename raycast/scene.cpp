@@ -280,6 +280,9 @@ HALFLIGHT_INLINE void Scene::offer(const Segment& ray, const Hit& hit, Nearest& 
   auto& [best, limit, count, tied] = nearest;
   const bool first = count == 0 || hit.t < tied[0].t;
   if (!first && !ties(ray, tied[0], hit)) { return; }
+  // A hit that was found before takes no place, so that copies of one surface leave room for the others.
+  const auto same = [&](const Hit& other) { return other.object == hit.object && other.sheet == hit.sheet && other.t == hit.t; };
+  if (std::any_of(tied.begin(), tied.begin() + count, same)) { return; }
   if (first) {
     const std::uint32_t before = std::exchange(count, 1);
     const auto others = tied;

@@ -164,6 +164,14 @@ class Scene {
     std::uint32_t source_sheet = unknown_sheet;
     Nearest nearest{};
     double t0 = 0.0, t1 = infinity;  // range of the ray within the compiled scene
+    // The last objects for which the law was evaluated: once is enough, for what is nearer was found with the rest.
+    std::array<std::uint32_t, 4> asked{no_object, no_object, no_object, no_object};
+
+    [[nodiscard]] bool is_asked(std::uint32_t object) const { return std::find(asked.begin(), asked.end(), object) != asked.end(); }
+    void set_asked(std::uint32_t object) {
+      std::rotate(asked.begin(), asked.end() - 1, asked.end());
+      asked.front() = object;
+    }
 
     // Sets the range within a cube around the whole scene; returns false if there is none.
     [[nodiscard]] bool clip(const Compiled& scene);
