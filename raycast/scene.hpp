@@ -222,7 +222,7 @@ class Scene {
   }
   [[nodiscard]] double along(std::uint32_t i, const Segment& s, const Crossing& at) const {
     const Record& r = records_[i];
-    return glm::dot(r.corner_count ? r.normal : objects_[i].project(at.sheet, s.at(at.t)).normal, s.direction);
+    return glm::dot(r.corner_count ? r.normal : objects_[i].normal(at.sheet, s.at(at.t)), s.direction);
   }
   [[nodiscard]] bool passes(const Line& line, const Record& polygon) const {
     return line.frame.winding(std::span(corners_).subspan(polygon.first_corner, polygon.corner_count)) != 0;

@@ -75,6 +75,11 @@ HALFLIGHT_INLINE PlacedObject::PlacedObject(std::shared_ptr<const Object> object
   } else {
     bounds_ = world_box(object_->bounds());
   }
+  if (!object_->flat()) { return; }
+  const glm::dvec3 anywhere = object_->bounds().centre();
+  std::vector<glm::dvec3> normals(object_->sheet_count());
+  for (std::uint32_t s = 0; s < normals.size(); ++s) { normals[s] = normal_to_world(object_->project(s, anywhere).normal); }
+  normals_ = std::make_shared<const std::vector<glm::dvec3>>(std::move(normals));
 }
 
 HALFLIGHT_INLINE std::vector<glm::dvec3> PlacedObject::outline() const {
@@ -104,10 +109,8 @@ HALFLIGHT_INLINE void PlacedObject::approximate(double tolerance, brep::Builder&
 }
 
 HALFLIGHT_INLINE SurfacePoint PlacedObject::project(std::uint32_t sheet, const glm::dvec3& p) const {
-  SurfacePoint result = object_->project(sheet, identity_ ? p : inverse_ * (p - placement_.translation));
-  if (!identity_) { result = {to_world(result.position), glm::normalize(normal_map_ * result.normal)}; }
-  if (placement_.inside) { result.normal = -result.normal; }
-  return result;
+  const SurfacePoint local = object_->project(sheet, identity_ ? p : inverse_ * (p - placement_.translation));
+  return {to_world(local.position), normals_ ? (*normals_)[sheet] : normal_to_world(local.normal)};
 }
 
 HALFLIGHT_INLINE glm::dvec3 PlacedObject::vertex(std::uint32_t sheet, const glm::dvec3& p) const {

@@ -16,6 +16,7 @@
 #include <string_view>
 #include <vector>
 
+#include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 #include <glm/vec3.hpp>
@@ -106,6 +107,10 @@ class PlacedObject {
   // Always a point on the sheet. It is the nearest one if the map keeps angles; otherwise it is the image of the nearest point
   // in object space, whose distance is at most the map's condition number times the least distance.
   [[nodiscard]] SurfacePoint project(std::uint32_t sheet, const glm::dvec3& p) const;
+  // The normal of project(), bit for bit. On a flat object it is the same at every point of a sheet and is not computed again.
+  [[nodiscard]] glm::dvec3 normal(std::uint32_t sheet, const glm::dvec3& p) const {
+    return normals_ ? (*normals_)[sheet] : project(sheet, p).normal;
+  }
   [[nodiscard]] glm::dvec3 vertex(std::uint32_t sheet, const glm::dvec3& p) const;
 
  private:
@@ -114,6 +119,11 @@ class PlacedObject {
     return identity_ ? line : Segment{inverse_ * (line.origin - placement_.translation), inverse_ * line.direction};
   }
   [[nodiscard]] bool mirrored() const { return !identity_ && glm::determinant(placement_.linear) < 0.0; }
+
+  [[nodiscard]] glm::dvec3 normal_to_world(const glm::dvec3& n) const {
+    const glm::dvec3 world = identity_ ? n : glm::normalize(normal_map_ * n);
+    return placement_.inside ? -world : world;
+  }
 
   // The box around the image of a box, widened by the rounding of the map (8 u of the magnitudes that are added).
   [[nodiscard]] Box world_box(const Box& box) const;
@@ -124,6 +134,7 @@ class PlacedObject {
   double stretch_ = 1.0;
   Box bounds_;
   bool identity_ = true;
+  std::shared_ptr<const std::vector<glm::dvec3>> normals_;  // of the sheets of a flat object; null for all others
 };
 
 }  // namespace raycast

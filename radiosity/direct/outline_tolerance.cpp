@@ -43,7 +43,7 @@ HALFLIGHT_INLINE double outline_tolerance(const raycast::PlacedObject& object, d
         sheet_of_edge.insert_or_assign({a, b}, sheet);
       } else if (other->second != sheet) {
         const glm::dvec3 middle = 0.5 * (boundary.position(a) + boundary.position(b));
-        const glm::dvec3 sum = object.project(sheet, middle).normal + object.project(other->second, middle).normal;
+        const glm::dvec3 sum = object.normal(sheet, middle) + object.normal(other->second, middle);
         share = std::min(share, 0.5 * glm::length(sum) * std::numbers::sqrt2);
       }
     }

@@ -28,8 +28,11 @@
 
 namespace radiosity {
 
-// longest_face: faces up to this proportion are left unchanged; longest_part: limit of the parts of longer ones.
-inline constexpr double longest_face = 8.0, longest_part = 4.0;
+// longest_face: faces up to this proportion are left unchanged; longest_part: limit of the parts of longer ones. All leaves of a part have
+// its proportion, and how fine they must be depends on their radius: of the rectangles with one radius those of 4 : 1 have 0.6 of the area
+// of those of 2 : 1, so more of them are needed. With 4, a corridor of 1000 : 1 had a third more leaves, and an error of 6.4 % instead of
+// 4.8 %.
+inline constexpr double longest_face = 8.0, longest_part = 2.0;
 
 // Faces with a smaller share of the total area are left unchanged, because refinement makes few patches of them.
 inline constexpr double least_long_share = 0.01;

@@ -10,6 +10,7 @@
 #include <functional>
 #include <numbers>
 #include <numeric>
+#include <optional>
 #include <queue>
 #include <span>
 #include <utility>
@@ -101,7 +102,8 @@ HALFLIGHT_INLINE BrightSpots::BrightSpots(const Lookup& lookup, const DirectLigh
     }
   }
   auto last = spots_.end();  // spots are the elements from here on
-  for (int round = 0; round < detail::most_rounds && area > 0.0; ++round) {
+  // Once the rest is black its power is a rounding error, of either sign: below a negative one everything black would count as a spot.
+  for (int round = 0; round < detail::most_rounds && area > 0.0 && power > 0.0; ++round) {
     const double least = detail::least_contrast * power / area;
     const auto first = std::stable_partition(spots_.begin(), last, [&](const Spot& spot) { return !(spot.power > least * spot.area); });
     if (first == last) { break; }
@@ -175,13 +177,19 @@ HALFLIGHT_INLINE void BrightSpots::make_groups() {
     enter(g);
     enter(static_cast<std::uint32_t>(groups_.size() - 1));
   }
-  for (std::uint32_t g = 0; g < groups_.size(); ++g) {
+  std::vector<std::uint32_t> order(groups_.size());  // of the groups along the spots
+  std::iota(order.begin(), order.end(), 0u);
+  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return groups_[a].first < groups_[b].first; });
+  for (const std::uint32_t g : order) {
     double before = 0.0;
     for (std::uint32_t i = groups_[g].first; i < groups_[g].last; ++i) {
       Spot& spot = spots_[i];
       spot.group = g;
       before = spot.until = before + spot.power;
-      spot_of_[lookup_->surface(spot.object, spot.sheet)][spot.triangle] = i;
+      const std::uint32_t surface = lookup_->surface(spot.object, spot.sheet);
+      spot_of_[surface][spot.triangle] = i;
+      until_.push_back(spot.until);
+      corners_.push_back(lookup_->triangle(surface, spot.triangle).position);
     }
   }
 }
@@ -192,14 +200,21 @@ HALFLIGHT_INLINE BrightSpots::Chosen BrightSpots::group_at(std::span<const doubl
   return {g, (number - before) / (until[g] - before)};
 }
 
-HALFLIGHT_INLINE const BrightSpots::Spot& BrightSpots::spot_at(const Group& group, double number) const {
-  return drawn(std::span(spots_).subspan(group.first, group.last - group.first), number * group.power);
+HALFLIGHT_INLINE std::uint32_t BrightSpots::spot_at(const Group& group, double number) const {
+  const std::span<const double> until = std::span(until_).subspan(group.first, group.last - group.first);
+  return group.first + static_cast<std::uint32_t>(drawn_index(until, number * group.power));
 }
 
-HALFLIGHT_INLINE raycast::ScenePoint BrightSpots::point_of(const Spot& spot, double u, double v) const {
-  const auto& [a, b, c] = lookup_->triangle(lookup_->surface(spot.object, spot.sheet), spot.triangle).position;
-  const glm::dvec3 chord = triangle_point(triangle_weights(u, v), a, b, c);
-  return {lookup_->objects().object(spot.object).project(spot.sheet, chord), spot.object, spot.sheet};
+HALFLIGHT_INLINE BrightSpots::Target BrightSpots::point_of(std::uint32_t index, double u, double v) const {
+  const Spot& spot = spots_[index];
+  const auto& [a, b, c] = corners_[index];
+  const glm::dvec3 weight = triangle_weights(u, v), chord = triangle_point(weight, a, b, c);
+  return {{lookup_->objects().object(spot.object).project(spot.sheet, chord), spot.object, spot.sheet}, index, weight};
+}
+
+HALFLIGHT_INLINE std::optional<Lookup::Found> BrightSpots::found(const Target& target) const {
+  if (!lookup_->objects().object(target.at.object).flat()) { return lookup_->find(target.at); }
+  return lookup_->found(lookup_->surface(target.at.object, target.at.sheet), spots_[target.spot].triangle, target.weight);
 }
 
 HALFLIGHT_INLINE bool BrightSpots::reached(const DirectLight& direct, const raycast::ScenePoint& target, const glm::dvec3& from,
@@ -220,10 +235,11 @@ HALFLIGHT_INLINE void BrightSpots::send16(const DirectLight& direct, std::uint32
   for (unsigned k = 0; k < 16; ++k) {
     const std::array<double, 4> u = sequence(first + k);
     const auto [g, rest] = group_at(until, u[0]);
-    const Spot& spot = spot_at(groups_[g], rest);
+    const std::uint32_t index = spot_at(groups_[g], rest);
+    const Spot& spot = spots_[index];
     // Position within the spot's interval, reused as the fourth random number.
     const double left = (rest * groups_[g].power - (spot.until - spot.power)) / spot.power;
-    const raycast::ScenePoint from = point_of(spot, u[3], std::clamp(left, 0.0, 1.0));
+    const raycast::ScenePoint from = point_of(index, u[3], std::clamp(left, 0.0, 1.0)).at;
     const double lift = direct.lift(from.object);  // the true surface may lie behind the mesh that stands in for it
     const glm::dvec3 above = direct.lifted(from.object, from.position, from.normal);
     rays.set(k, {above, reach * cosine_direction(from.normal, u[1], u[2])}, lift > 0.0 ? raycast::no_object : from.object,
@@ -308,7 +324,7 @@ HALFLIGHT_INLINE BrightSpots::From::From(const BrightSpots& spots, const glm::dv
 
 HALFLIGHT_INLINE double BrightSpots::From::contrast(double light) const { return border_ > 0.0 ? std::sqrt(border_) / light : 0.0; }
 
-HALFLIGHT_INLINE raycast::ScenePoint BrightSpots::From::choose(const std::array<double, 4>& numbers) const {
+HALFLIGHT_INLINE BrightSpots::Target BrightSpots::From::choose(const std::array<double, 4>& numbers) const {
   const auto [g, rest] = group_at(until_, numbers[0]);
   return spots_->point_of(spots_->spot_at(spots_->groups_[g], rest), numbers[1], numbers[2]);
 }

@@ -14,6 +14,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -39,6 +40,15 @@ class BrightSpots {
 
   [[nodiscard]] bool empty() const { return groups_.empty(); }
 
+  // A chosen point of a spot, and the weights of the corners of its triangle there.
+  struct Target {
+    raycast::ScenePoint at;
+    std::uint32_t spot = 0;
+    glm::dvec3 weight{0.0};
+  };
+  // What the lookup finds at the target. On a flat object its triangle is known, so nothing is searched.
+  [[nodiscard]] std::optional<Lookup::Found> found(const Target& target) const;
+
   // Has a ray from `from`, aimed at a target, met it? If meshes stand in for the target's object (direct_light.hpp), the hit may be
   // slightly off the target.
   [[nodiscard]] static bool reached(const DirectLight& direct, const raycast::ScenePoint& target, const glm::dvec3& from,
@@ -58,7 +68,8 @@ class BrightSpots {
     // spots.
     [[nodiscard]] bool spread_more_than(double light) const { return square_ > light * light; }
     // Chooses a point of the spots, by numbers in (0, 1).
-    [[nodiscard]] raycast::ScenePoint choose(const std::array<double, 4>& numbers) const;
+    [[nodiscard]] Target choose(const std::array<double, 4>& numbers) const;
+    [[nodiscard]] std::optional<Lookup::Found> found(const Target& target) const { return spots_->found(target); }
     // Probability density by area with which choose() picks points of this triangle of an input surface; 0 if it is no spot.
     [[nodiscard]] double density(std::uint32_t surface, std::uint32_t triangle) const;
     // The density with which choose() picks a place `there` seen from `here`, relative to that of a uniform ray.
@@ -102,10 +113,10 @@ class BrightSpots {
     double rest = 0.0;
   };
   [[nodiscard]] static Chosen group_at(std::span<const double> until, double number);
-  // Chooses a spot of a group by power.
-  [[nodiscard]] const Spot& spot_at(const Group& group, double number) const;
+  // Chooses a spot of a group by power: its index.
+  [[nodiscard]] std::uint32_t spot_at(const Group& group, double number) const;
   // A point uniformly distributed on a spot's triangle, by two numbers in (0, 1).
-  [[nodiscard]] raycast::ScenePoint point_of(const Spot& spot, double u, double v) const;
+  [[nodiscard]] Target point_of(std::uint32_t spot, double u, double v) const;
   struct Photons {
     std::vector<std::uint32_t> sent, elsewhere;  // by group: photons sent, and how many of them landed outside the spots
     std::vector<SpotPhotons::Photon> landed;
@@ -116,7 +127,9 @@ class BrightSpots {
   void send16(const DirectLight& direct, std::uint32_t first, const std::vector<double>& until, Photons& photons) const;
 
   const Lookup* lookup_ = nullptr;
-  std::vector<Spot> spots_;  // sorted by group
+  std::vector<Spot> spots_;                         // sorted by group
+  std::vector<double> until_;                       // by spot: Spot::until, packed for the search
+  std::vector<std::array<glm::dvec3, 3>> corners_;  // by spot: of its triangle
   std::vector<Group> groups_;
   std::vector<std::vector<std::uint32_t>> spot_of_;  // by input surface and triangle: index of the spot, or none
   SpotPhotons photons_;

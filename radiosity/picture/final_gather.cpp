@@ -174,11 +174,12 @@ inline constexpr double least_distance = 0.1;  // lower limit of the distances o
 
 }  // namespace detail
 
-HALFLIGHT_INLINE FinalGather::Arriving FinalGather::arriving(const Sender& sender, const raycast::ScenePoint& found) const {
+HALFLIGHT_INLINE FinalGather::Arriving FinalGather::arriving(const Sender& sender, const raycast::ScenePoint& found,
+                                                             const BrightSpots::Target* target) const {
   const std::uint32_t surface = lookup_.surface(found.object, found.sheet);
   const Color lamp = direct_.is_lamp(surface) ? materials_[surface].emission : Color{0.0};
   if (is_black(materials_[surface].reflectance)) { return {materials_[surface].emission - lamp}; }
-  const std::optional<Lookup::Found> light = lookup_.find(found);
+  const std::optional<Lookup::Found> light = target != nullptr ? spots_.found(*target) : lookup_.find(found);
   if (!light) { return {}; }
   double aimed = 0.0;
   if (sender.aimed > 0) {
@@ -214,11 +215,11 @@ HALFLIGHT_INLINE void FinalGather::cast_evenly(const Sender& sender, const Sobol
 HALFLIGHT_INLINE void FinalGather::cast_at_spots(const Sender& sender, const Sobol4& sequence, std::uint32_t first, Sum& sum) const {
   const double reach = objects().diameter(), least = detail::least_distance * direct_.off_surface();
   raycast::Segments16 segments;
-  std::array<raycast::ScenePoint, 16> targets;
+  std::array<BrightSpots::Target, 16> targets;
   for (unsigned k = 0; k < 16; ++k) {
     targets[k] = sender.spots.choose(sequence(first + k));
-    const glm::dvec3 d = targets[k].position - sender.from;
-    if (!(glm::dot(d, sender.place.point.normal) > 0.0) || !(glm::dot(d, targets[k].normal) < 0.0)) { continue; }
+    const glm::dvec3 d = targets[k].at.position - sender.from;
+    if (!(glm::dot(d, sender.place.point.normal) > 0.0) || !(glm::dot(d, targets[k].at.normal) < 0.0)) { continue; }
     segments.set(k, {sender.from, reach * glm::normalize(d)}, sender.owner, raycast::no_object, sender.sheet);
   }
   if (segments.lanes == 0) { return; }
@@ -226,10 +227,10 @@ HALFLIGHT_INLINE void FinalGather::cast_at_spots(const Sender& sender, const Sob
   for (std::uint32_t rest = hits.met & segments.lanes; rest != 0; rest &= rest - 1) {
     const auto k = static_cast<unsigned>(std::countr_zero(rest));
     const raycast::Hit& hit = hits.hit[k];
-    if (!hit.front || direct_.whole(hit.object) != targets[k].object) { continue; }
+    if (!hit.front || direct_.whole(hit.object) != targets[k].at.object) { continue; }
     const raycast::ScenePoint found = met(hit, segments.at(k));
-    if (!BrightSpots::reached(direct_, targets[k], sender.from, found)) { continue; }
-    const Arriving light = arriving(sender, targets[k]);
+    if (!BrightSpots::reached(direct_, targets[k].at, sender.from, found)) { continue; }
+    const Arriving light = arriving(sender, targets[k].at, &targets[k]);
     if (!(light.aimed > 0.0) || hits.hit[k].t * reach < light.coarse_within) { continue; }
     sum.add(k / 4, light.light / (1.0 + light.aimed), std::max(hit.t * reach, least));
     ++sum.spots_met;

@@ -127,7 +127,9 @@ class FinalGather {
     double aimed = 0.0;
     double coarse_within = 0.0;  // seen from nearer than this, the light may be wrong
   };
-  [[nodiscard]] Arriving arriving(const Sender& sender, const raycast::ScenePoint& found) const;
+  // `target`: the target of an aimed ray, if the place is one.
+  [[nodiscard]] Arriving arriving(const Sender& sender, const raycast::ScenePoint& found,
+                                  const BrightSpots::Target* target = nullptr) const;
   // Cast sixteen rays, beginning with number `first` of the sequence.
   void cast_evenly(const Sender& sender, const Sobol4& sequence, std::uint32_t first, Sum& sum) const;
   // Ignores near hits, which are left to uniform rays (mend_near).

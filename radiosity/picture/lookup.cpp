@@ -42,13 +42,18 @@ HALFLIGHT_INLINE Lookup::Lookup(const Scene& scene, const Mesh& mesh, const Fram
   }
   sheets_.resize(inputs.size());
   corners_.resize(mesh.corners.size());
+  std::vector<std::size_t> counts(inputs.size(), 0);
+  for (const MeshFace& face : mesh.faces) { counts[face.surface] += face.corner_count - 2; }
+  for (std::size_t i = 0; i < inputs.size(); ++i) { sheets_[i].triangles.reserve(counts[i]); }
   for (const MeshFace& face : mesh.faces) {
     for (std::uint32_t c = face.first_corner; c < face.first_corner + face.corner_count; ++c) {
       const glm::dvec3 position = (mesh.positions[mesh.corners[c].vertex] - frame.centre) * frame.scale;
-      corners_[c] = {position, glm::dvec3{mesh.corners[c].normal}, mesh.corners[c].radiosity};
+      corners_[c] = {position, glm::dvec3{mesh.corners[c].normal}};
     }
     for (std::uint32_t k = 1; k + 1 < face.corner_count; ++k) {
-      sheets_[face.surface].triangles.push_back({{face.first_corner, face.first_corner + k, face.first_corner + k + 1}});
+      Triangle triangle{{face.first_corner, face.first_corner + k, face.first_corner + k + 1}, 0.0f, {}};
+      for (std::size_t i = 0; i < 3; ++i) { triangle.radiosity[i] = mesh.corners[triangle.corner[i]].radiosity; }
+      sheets_[face.surface].triangles.push_back(triangle);
     }
   }
   find_coarse();
@@ -126,7 +131,7 @@ HALFLIGHT_INLINE void Lookup::find_coarse() {
       raycast::Box box;
       for (std::size_t i = 0; i < 3; ++i) {
         const Corner &a = corners_[triangle.corner[i]], &b = corners_[triangle.corner[(i + 1) % 3]];
-        const double light = a.radiosity.x + a.radiosity.y + a.radiosity.z;
+        const double light = triangle.radiosity[i].x + triangle.radiosity[i].y + triangle.radiosity[i].z;
         least = std::min(least, light);
         most = std::max(most, light);
         longest = std::max(longest, glm::length(b.position - a.position));
@@ -152,7 +157,7 @@ HALFLIGHT_INLINE void Lookup::find_coarse() {
 
 HALFLIGHT_INLINE Color Lookup::blend(const Triangle& triangle, const glm::dvec3& weight) const {
   Color sum{0.0};
-  for (int i = 0; i < 3; ++i) { sum += weight[i] * corners_[triangle.corner[i]].radiosity; }
+  for (int i = 0; i < 3; ++i) { sum += weight[i] * triangle.radiosity[i]; }
   return sum;
 }
 

@@ -44,7 +44,7 @@ class Lookup {
   // The radiosity at a point of a sheet, in coordinates of the frame. Nothing if the sheet is buried and has no mesh. Cost: one descent
   // of a tree, or a few steps in a grid.
   [[nodiscard]] std::optional<Color> at(std::uint32_t object, std::uint32_t sheet, const glm::dvec3& point) const {
-    return at({{point, objects_.object(object).project(sheet, point).normal}, object, sheet});
+    return at({{point, objects_.object(object).normal(sheet, point)}, object, sheet});
   }
 
   // At a place whose normal is known.
@@ -60,6 +60,11 @@ class Lookup {
     double coarse_within = 0.0;  // seen from nearer than this, the triangle is too wide to represent its light; 0: never
   };
   [[nodiscard]] std::optional<Found> find(const raycast::ScenePoint& place) const;
+  // What find() returns, up to rounding, at the point of a triangle of a flat object that has these barycentric weights.
+  [[nodiscard]] Found found(std::uint32_t surface, std::uint32_t triangle, const glm::dvec3& weight) const {
+    const Triangle& on = sheets_[surface].triangles[triangle];
+    return {blend(on, weight), triangle, true, on.coarse_within};
+  }
 
   // The triangles of an input surface, in the frame.
   [[nodiscard]] std::size_t triangle_count(std::uint32_t surface) const { return sheets_[surface].triangles.size(); }
@@ -90,11 +95,11 @@ class Lookup {
   struct Corner {
     glm::dvec3 position{0.0};
     glm::dvec3 normal{0.0};
-    Color radiosity{0.0};
   };
   struct Triangle {
     std::uint32_t corner[3];
     float coarse_within = 0.0f;  // as in Found
+    Color radiosity[3];          // at the corners; here and not in Corner, so that a point of a plane needs no other memory
   };
   struct Sheet {
     std::vector<Triangle> triangles;

@@ -162,13 +162,13 @@ HALFLIGHT_INLINE void NearLight::light_by_lamps(Paths& paths, std::span<PathNumb
 HALFLIGHT_INLINE void NearLight::light_by_spots(Paths& paths, std::span<PathNumbers> numbers, const BrightSpots::From& spots,
                                                 bool last) const {
   raycast::Segments16 rays;
-  std::array<raycast::ScenePoint, paths_at_once> targets;
+  std::array<BrightSpots::Target, paths_at_once> targets;
   paths.each([&](unsigned k) {
     const raycast::ScenePoint& at = paths.end[k];
     const double u0 = numbers[k].uniform(), u1 = numbers[k].uniform(), u2 = numbers[k].uniform();
     targets[k] = spots.choose({u0, u1, u2, 0.5});
-    const glm::dvec3 d = targets[k].position - at.position;
-    if (!(glm::dot(d, at.normal) > 0.0) || !(glm::dot(d, targets[k].normal) < 0.0)) { return; }
+    const glm::dvec3 d = targets[k].at.position - at.position;
+    if (!(glm::dot(d, at.normal) > 0.0) || !(glm::dot(d, targets[k].at.normal) < 0.0)) { return; }
     const double lift = direct_->lift(at.object), reach = lookup_->objects().diameter();
     rays.set(k, {at.position + lift * at.normal, reach * glm::normalize(d)}, lift > 0.0 ? raycast::no_object : at.object,
              raycast::no_object, at.sheet);
@@ -178,11 +178,11 @@ HALFLIGHT_INLINE void NearLight::light_by_spots(Paths& paths, std::span<PathNumb
   for (std::uint32_t rest = hits.met & rays.lanes; rest != 0; rest &= rest - 1) {
     const auto k = static_cast<unsigned>(std::countr_zero(rest));
     const raycast::Hit& hit = hits.hit[k];
-    if (!hit.front || direct_->whole(hit.object) != targets[k].object) { continue; }
+    if (!hit.front || direct_->whole(hit.object) != targets[k].at.object) { continue; }
     const raycast::ScenePoint& at = paths.end[k];
-    if (!BrightSpots::reached(*direct_, targets[k], at.position, met(lookup_->objects(), *direct_, hit, rays.at(k)))) { continue; }
-    const raycast::ScenePoint& next = targets[k];
-    const std::optional<Lookup::Found> found = lookup_->find(next);
+    const raycast::ScenePoint& next = targets[k].at;
+    if (!BrightSpots::reached(*direct_, next, at.position, met(lookup_->objects(), *direct_, hit, rays.at(k)))) { continue; }
+    const std::optional<Lookup::Found> found = spots.found(targets[k]);
     if (!found || (!last && glm::length(next.position - at.position) < found->coarse_within)) { continue; }
     const std::uint32_t surface = lookup_->surface(next.object, next.sheet);
     const double aimed = spots.aimed(surface, *found, at, next);

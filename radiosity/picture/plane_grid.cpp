@@ -63,11 +63,11 @@ HALFLIGHT_INLINE PlaneGrid::PlaneGrid(std::span<const Corners> triangles) {
   least_width_ = detail::least_width * std::max(most.x, most.y);
   shares_left_ = detail::most_shares * all.size();
   root_ = divide(whole, all, bounds, 0);
+  weights_ = {};
 }
 
 // For a triangle whose bounds overlap the cell: they are disjoint if one of its weights is negative in the whole cell.
-HALFLIGHT_INLINE bool PlaneGrid::meets(std::uint32_t triangle, const Box& cell) const {
-  const Weights& w = weights_[triangle];
+HALFLIGHT_INLINE bool PlaneGrid::meets(const Weights& w, const Box& cell) {
   const glm::dvec2 half = 0.5 * (cell.hi - cell.lo);
   const glm::dvec3 middle = w.at(0.5 * (cell.lo + cell.hi));
   const auto most = [&](double at, double gu, double gv) { return at + std::abs(gu) * half.x + std::abs(gv) * half.y; };
@@ -98,7 +98,7 @@ HALFLIGHT_INLINE std::optional<PlaneGrid::InCells> PlaneGrid::sort_into(const Gr
     if (shares > most_shares || looks > detail::looks_a_share * most_shares) { return std::nullopt; }
     for (std::uint32_t y = from[1]; y <= to[1]; ++y) {
       for (std::uint32_t x = from[0]; x <= to[0]; ++x) {
-        if (!meets(t, box_of(grid, x, y))) { continue; }
+        if (!meets(weights_[t], box_of(grid, x, y))) { continue; }
         in_cells[std::size_t{y} * grid.size[0] + x].push_back(t);
         ++shares;
       }
@@ -134,7 +134,7 @@ HALFLIGHT_INLINE PlaneGrid::Cell PlaneGrid::divide(const Box& box, const std::ve
   }
   if (triangles.size() > detail::most_listed) { return {}; }
   const auto first = static_cast<std::uint32_t>(items_.size());
-  items_.insert(items_.end(), triangles.begin(), triangles.end());
+  for (const std::uint32_t t : triangles) { items_.push_back({weights_[t], t}); }
   return {first, static_cast<std::uint32_t>(triangles.size())};
 }
 
@@ -147,8 +147,8 @@ HALFLIGHT_INLINE std::optional<PlaneGrid::Found> PlaneGrid::find(const glm::dvec
     cell = cells_[grid.first_cell + std::size_t{y} * grid.size[0] + x];
   }
   for (std::uint32_t k = cell.first; k < cell.first + cell.count; ++k) {
-    const glm::dvec3 weight = weights_[items_[k]].at(p);
-    if (std::min({weight.x, weight.y, weight.z}) >= -detail::weight_slip) { return Found{items_[k], weight}; }
+    const glm::dvec3 weight = items_[k].weights.at(p);
+    if (std::min({weight.x, weight.y, weight.z}) >= -detail::weight_slip) { return Found{items_[k].triangle, weight}; }
   }
   return std::nullopt;
 }

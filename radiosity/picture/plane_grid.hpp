@@ -44,6 +44,11 @@ class PlaneGrid {
       return {1.0 - b - c, b, c};
     }
   };
+  // An entry of a cell's list. It holds the weights itself: fetching them from an array by triangle would wait for memory once more.
+  struct Item {
+    Weights weights;
+    std::uint32_t triangle = 0;
+  };
   struct Box {
     glm::dvec2 lo{0.0}, hi{0.0};
   };
@@ -69,7 +74,7 @@ class PlaneGrid {
   [[nodiscard]] static Grid grid_over(const Box& box, double cells);
   // The box of a cell, slightly enlarged.
   [[nodiscard]] static Box box_of(const Grid& grid, std::uint32_t x, std::uint32_t y);
-  [[nodiscard]] bool meets(std::uint32_t triangle, const Box& cell) const;
+  [[nodiscard]] static bool meets(const Weights& triangle, const Box& cell);
   // The triangles of each cell; nothing if that would need too many tests, or more than `most_shares` entries.
   using InCells = std::vector<std::vector<std::uint32_t>>;
   [[nodiscard]] std::optional<InCells> sort_into(const Grid& grid, const std::vector<std::uint32_t>& triangles,
@@ -79,11 +84,11 @@ class PlaneGrid {
 
   std::array<int, 2> axes_{0, 1};
   double least_width_ = 0.0;
-  std::size_t shares_left_ = 0;  // entries of triangles in cells that are still allowed, beyond one each
-  std::vector<Weights> weights_;
+  std::size_t shares_left_ = 0;   // entries of triangles in cells that are still allowed, beyond one each
+  std::vector<Weights> weights_;  // by triangle; only while the grids are made
   std::vector<Grid> grids_;
   std::vector<Cell> cells_;
-  std::vector<std::uint32_t> items_;
+  std::vector<Item> items_;
   Cell root_;
 };
 

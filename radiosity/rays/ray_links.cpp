@@ -27,10 +27,18 @@ namespace radiosity {
 
 namespace detail {
 
-// One ray, counted for two nodes.
+// Which two nodes a ray is counted for. The rest is computed when its link is made: rays are many, and all of these exist at once.
 struct RayPart {
   std::uint32_t p = no_node, q = no_node;  // p < q
-  float exchange = 0.0f;
+  std::uint32_t caster = no_node;          // the node from which it starts
+  std::uint32_t code = 0;                  // twice its number among those of the caster, plus 1 if it starts on q and ends on p
+  [[nodiscard]] std::uint32_t ray() const { return code >> 1; }
+  [[nodiscard]] bool starts_on_q() const { return (code & 1u) != 0; }
+};
+
+// What a ray contributes to the link of its two nodes.
+struct RaySample {
+  double exchange = 0.0;
   glm::vec3 at_p{0.0f}, at_q{0.0f};  // end points, relative to the nodes' centroids
 };
 
@@ -90,9 +98,8 @@ class Pooling {
       }
       const auto exchange = static_cast<float>(1.0 / (result.density[i] + result.density[to]));
       if (!(exchange > 0.0f)) { continue; }  // too small for a float
-      const glm::vec3 at_p{glm::dvec3{ray.start} + hierarchy[i].centre - scene.exposure.centroid[p]};
-      const glm::vec3 at_q{glm::dvec3{ray.end} + hierarchy[ray.to].centre - scene.exposure.centroid[q]};
-      parts.push_back(p < q ? RayPart{p, q, exchange, at_p, at_q} : RayPart{q, p, exchange, at_q, at_p});
+      const auto code = 2 * static_cast<std::uint32_t>(&ray - rays.of(i).data());
+      parts.push_back(p < q ? RayPart{p, q, i, code} : RayPart{q, p, i, code + 1});
     }
     if (rays.count(i) > 0) { result.share[i] = static_cast<double>(carried) / static_cast<double>(rays.count(i)); }
   }
@@ -112,8 +119,18 @@ class Pooling {
   return density;
 }
 
+[[nodiscard]] HALFLIGHT_INLINE RaySample sample_of(const DiscreteScene& scene, const StoredRays& rays, const RayLinks& result,
+                                                   const RayPart& part) {
+  const StoredRay& ray = rays.of(part.caster)[part.ray()];
+  const std::uint32_t start = part.starts_on_q() ? part.q : part.p, end = part.starts_on_q() ? part.p : part.q;
+  const auto exchange = static_cast<float>(1.0 / (result.density[part.caster] + result.density[result.caster[ray.to]]));
+  const glm::vec3 at_start{glm::dvec3{ray.start} + scene.hierarchy[part.caster].centre - scene.exposure.centroid[start]};
+  const glm::vec3 at_end{glm::dvec3{ray.end} + scene.hierarchy[ray.to].centre - scene.exposure.centroid[end]};
+  return {static_cast<double>(exchange), part.starts_on_q() ? at_end : at_start, part.starts_on_q() ? at_start : at_end};
+}
+
 // The link of parts that all belong to the same pair.
-[[nodiscard]] HALFLIGHT_INLINE Link pooled_link(const DiscreteScene& scene, const std::vector<std::uint32_t>& caster,
+[[nodiscard]] HALFLIGHT_INLINE Link pooled_link(const DiscreteScene& scene, const StoredRays& rays, const RayLinks& result,
                                                 const BigArray<RayPart>& parts, std::span<const std::uint32_t> of) {
   const std::uint32_t p = parts[of.front()].p;
   const std::uint32_t q = parts[of.front()].q;
@@ -121,15 +138,15 @@ class Pooling {
   glm::dvec3 moment_p{0.0};
   glm::dvec3 moment_q{0.0};
   for (const std::uint32_t k : of) {
-    const auto exchange = static_cast<double>(parts[k].exchange);
-    sum += exchange;
-    moment_p += exchange * glm::dvec3{parts[k].at_p};
-    moment_q += exchange * glm::dvec3{parts[k].at_q};
+    const RaySample sample = sample_of(scene, rays, result, parts[k]);
+    sum += sample.exchange;
+    moment_p += sample.exchange * glm::dvec3{sample.at_p};
+    moment_q += sample.exchange * glm::dvec3{sample.at_q};
   }
   Link link{p, q, static_cast<float>(sum), {}, {}};
   // No gradient within a casting node, which has too few rays for one.
   const auto gradient = [&](std::uint32_t i, const glm::dvec3& moment) {
-    return caster[i] == no_node ? EndShape::of_patch(glm::vec3{scene.patches[i].inverse_inertia * (moment / sum)}) : EndShape{};
+    return result.caster[i] == no_node ? EndShape::of_patch(glm::vec3{scene.patches[i].inverse_inertia * (moment / sum)}) : EndShape{};
   };
   link.shape_p = gradient(p, moment_p);
   link.shape_q = gradient(q, moment_q);
@@ -183,14 +200,19 @@ HALFLIGHT_INLINE RayLinks make_ray_links(const DiscreteScene& scene, const Store
   BigArray<std::uint32_t> order(parts.size(), scene.budget.arrays);
   std::vector<std::size_t> next(first.begin(), first.end() - 1);
   for (std::uint32_t k = 0; k < parts.size(); ++k) { order[next[parts[k].p]++] = k; }
+  std::size_t links = 0;  // counted first: an array that grows exists twice for a while
   for (std::size_t i = 0; i < hierarchy.size(); ++i) {
     const std::span<std::uint32_t> of_p = std::span(order).subspan(first[i], first[i + 1] - first[i]);
     std::sort(of_p.begin(), of_p.end(),
               [&](std::uint32_t a, std::uint32_t b) { return parts[a].q != parts[b].q ? parts[a].q < parts[b].q : a < b; });
-    for (std::size_t begin = 0, end = 0; begin < of_p.size(); begin = end) {
-      while (end < of_p.size() && parts[of_p[end]].q == parts[of_p[begin]].q) { ++end; }
-      result.links.push_back(detail::pooled_link(scene, result.caster, parts, of_p.subspan(begin, end - begin)));
-    }
+    for (std::size_t k = 0; k < of_p.size(); ++k) { links += k == 0 || parts[of_p[k]].q != parts[of_p[k - 1]].q ? 1 : 0; }
+  }
+  result.links.reserve(links);
+  for (std::size_t begin = 0, end = 0; begin < order.size(); begin = end) {
+    const detail::RayPart& part = parts[order[begin]];
+    while (end < order.size() && parts[order[end]].p == part.p && parts[order[end]].q == part.q) { ++end; }
+    result.links.push_back(
+        detail::pooled_link(scene, rays, result, parts, std::span<const std::uint32_t>(order).subspan(begin, end - begin)));
   }
   return result;
 }

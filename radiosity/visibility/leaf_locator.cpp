@@ -18,6 +18,7 @@
 #include <raycast/inline.hpp>
 #include <raycast/object.hpp>
 #include <raycast/point_query.hpp>
+#include <raycast/tolerances.hpp>
 
 #include <radiosity/geometry/form_factor.hpp>
 #include <radiosity/hierarchy/hierarchy.hpp>
@@ -28,10 +29,12 @@ namespace radiosity {
 
 namespace detail {
 
-// The least distance of x from the edges of a convex polygon, in its plane; negative outside.
-[[nodiscard]] HALFLIGHT_INLINE double depth_within(std::span<const glm::dvec3> polygon, const glm::dvec3& normal, const glm::dvec3& x) {
+// The least distance of x from the edges of a convex polygon, in its plane; negative outside. Where that is at most `enough`, the result
+// is some number between the two.
+[[nodiscard]] HALFLIGHT_INLINE double depth_within(std::span<const glm::dvec3> polygon, const glm::dvec3& normal, const glm::dvec3& x,
+                                                   double enough) {
   double least = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
+  for (std::size_t i = 0; i < polygon.size() && least > enough; ++i) {
     const glm::dvec3 edge = polygon[i + 1 < polygon.size() ? i + 1 : 0] - polygon[i];
     const double length = glm::length(edge);
     if (length > 0.0) { least = std::min(least, glm::dot(glm::cross(normal, edge), x - polygon[i]) / length); }
@@ -77,12 +80,12 @@ HALFLIGHT_INLINE void LeafLocator::add_fan(std::uint32_t node) {
   fans_.push_back(fan);
 }
 
-HALFLIGHT_INLINE double LeafLocator::depth(std::uint32_t node, const glm::dvec3& x) const {
+HALFLIGHT_INLINE double LeafLocator::depth(std::uint32_t node, const glm::dvec3& x, double enough) const {
   const Patch& patch = (*patches_)[node];
   double most = -std::numeric_limits<double>::infinity();
   if (!(patch.area > 0.0)) { return most; }
-  if (patch.parts.empty()) { return detail::depth_within(patch.contour, patch.normal, x); }
-  for (const Polygon& part : patch.parts) { most = std::max(most, detail::depth_within(part, patch.normal, x)); }
+  if (patch.parts.empty()) { return detail::depth_within(patch.contour, patch.normal, x, enough); }
+  for (const Polygon& part : patch.parts) { most = std::max(most, detail::depth_within(part, patch.normal, x, std::max(most, enough))); }
   return most;
 }
 
@@ -98,7 +101,8 @@ HALFLIGHT_INLINE std::uint32_t LeafLocator::input_face_at(const InputFaces& face
     const std::uint32_t i = faces.nodes[k];
     if (turned_away(i)) { return; }
     const double height = std::abs(glm::dot(patches[i].normal, at.position - patches[i].centre));
-    const double score = depth(i, at.position) - height;
+    const double enough = best_score + height - 8.0 * raycast::unit_roundoff * (std::abs(best_score) + height);
+    const double score = depth(i, at.position, enough) - height;
     if (score > best_score) {
       best = i;
       best_score = score;
@@ -126,9 +130,9 @@ HALFLIGHT_INLINE std::uint32_t LeafLocator::child_at(std::uint32_t node, const g
     return first;  // the point is the centre itself
   }
   std::uint32_t best = first;
-  double best_depth = depth(best, x);
+  double best_depth = depth(best, x, -std::numeric_limits<double>::infinity());
   for (std::uint32_t c = first + 1; c < first + (*hierarchy_)[node].child_count; ++c) {
-    const double d = depth(c, x);
+    const double d = depth(c, x, best_depth);
     if (d > best_depth) {
       best = c;
       best_depth = d;

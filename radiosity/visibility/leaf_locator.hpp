@@ -46,8 +46,9 @@ class LeafLocator {
   };
 
   void add_fan(std::uint32_t node);
-  // Distance of a point from the edges of the patch, positive inside and negative outside.
-  [[nodiscard]] double depth(std::uint32_t node, const glm::dvec3& x) const;
+  // Distance of a point from the edges of the patch, positive inside and negative outside. Where that is at most `enough`, so that another
+  // patch is the answer, the result is some number between the two.
+  [[nodiscard]] double depth(std::uint32_t node, const glm::dvec3& x, double enough) const;
   [[nodiscard]] std::uint32_t input_face_at(const InputFaces& faces, const raycast::SurfacePoint& at) const;
   [[nodiscard]] std::uint32_t child_at(std::uint32_t node, const glm::dvec3& x) const;
 
