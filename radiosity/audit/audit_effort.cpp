@@ -91,9 +91,9 @@ struct PathModel {
   const bool known = doubt <= 0.5 * std::abs(gap);
   if (known && gap < least_gap * target) { return without; }
   const double now = rays_to_show(known ? gap : std::max(gap, likely_gap * target));
-  const bool pays = known ? now <= refine + rays_to_show(target - left_by_round * (target - gap)) : much_cheaper * now <= refine;
+  const double worth = known ? refine + rays_to_show(target - left_by_round * (target - gap)) : refine / much_cheaper;
   const double most = std::max(plain, static_cast<double>(goal.rays_to_show)) + static_cast<double>(goal.reserve);
-  return pays && spent + now <= most ? most : without;
+  return now <= worth && spent + now <= most ? std::clamp(spent + worth, without, most) : without;
 }
 
 HALFLIGHT_INLINE Effort next_effort(const AuditGoal& goal, std::uint64_t least, const Effort& pilot, const ErrorSums& sums,
