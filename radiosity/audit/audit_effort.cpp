@@ -85,9 +85,10 @@ struct PathModel {
     return static_cast<double>(effort.points) * model.rays_at(effort.paths);
   };
   // As long as noise hides the error nobody knows whether the target is met, whatever the mean is. Then a round that is much cheaper than
-  // the audit comes first.
+  // the audit comes first; and one that costs as much, where the mean is above the target.
   constexpr double left_by_round = 0.3;  // of the mean square: a round leaves about 0.55 of the error
-  constexpr double much_cheaper = 0.25, least_gap = 0.15, likely_gap = 0.5;
+  const double much_cheaper = seen.ratio <= target ? 0.25 : 1.0;
+  constexpr double least_gap = 0.15, likely_gap = 0.5;
   const bool known = doubt <= 0.5 * std::abs(gap);
   if (known && gap < least_gap * target) { return without; }
   const double now = rays_to_show(known ? gap : std::max(gap, likely_gap * target));
