@@ -26,7 +26,7 @@ enum class ExitCode : int {
   failure = 1,        // cannot read or write a file, out of memory, interrupted with nothing to show
   usage = 2,          // the command line is wrong
   invalid_input = 3,  // the scene file or the mesh is wrong; the output says where
-  not_converged = 4,  // the error target or the residual was not reached, or interrupted; results were written nevertheless
+  not_converged = 4,  // an error target or the residual was not reached, or interrupted; results were written nevertheless
 };
 
 // Reserves the stack that the main thread may need, or throws bad_alloc. The system otherwise allocates it on use, and if the process may

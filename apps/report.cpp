@@ -21,6 +21,22 @@ std::string error_text(const std::optional<radiosity::ErrorEstimate>& error) {
   return percent(error->relative_l2) + "  (" + percent(error->low) + " to " + percent(error->high) + ")";
 }
 
+// Noise hides whether a pixel is off if it is larger than the levels; then next to nothing is known about the share of such pixels.
+bool is_unknown(const radiosity::ShareBounds& share) { return share.most - share.least > 0.9; }
+
+std::string share_text(const radiosity::ShareBounds& share) {
+  const std::string least = percent(share.least), most = percent(share.most);
+  if (least == most) { return least; }
+  return share.least == 0.0 ? "at most " + most : share.most == 1.0 ? "at least " + least : least + " to " + most;
+}
+
+// The shares of the pixels that are more than 2 and 8 levels off.
+std::string shares_text(const radiosity::ShareBounds& over2, const radiosity::ShareBounds& over8) {
+  if (is_unknown(over2) && is_unknown(over8)) { return "unknown: the paths at a pixel are noisier than that"; }
+  const auto text = [](const radiosity::ShareBounds& share) { return is_unknown(share) ? "unknown" : share_text(share); };
+  return text(over2) + ", " + text(over8) + " of the pixels";
+}
+
 // Is the interval too wide to tell how large the error is?
 bool leaves_open(const radiosity::ErrorEstimate& error) {
   return error.high > radiosity::negligible_error && error.high - error.low > std::max(0.01, 1.5 * error.relative_l2);
@@ -67,8 +83,8 @@ class Text {
     out_ += "error (RMS, relative to the RMS of the reflected radiosity; 95 % interval)\n";
     if (audit_.picture_error) {
       out_ += picture_error_text(*audit_.picture_error, report_.picture ? report_.picture->camera : "");
-    } else if (report_.picture && report_.options.audit_points > 0 && !audit_.interrupted) {
-      row("picture " + report_.picture->camera, "unknown: it shows nothing but lamps, or paths from its pixels find too little light");
+    } else if (report_.picture && !report_.picture_error_unknown.empty()) {
+      row("picture " + report_.picture->camera, "unknown: " + report_.picture_error_unknown);
     }
     if (report_.options.reconstruction != radiosity::Reconstruction::none) { row("surfaces", error_text(audit_.surface_error)); }
     row("leaf constants", error_text(audit_.leaf_error));
@@ -168,13 +184,28 @@ class Text {
     say("open scene",
         "{stray_rays.escaping} of the rays from its surfaces meet nothing, {stray_rays.to_backs} a black back (+- "
         "{stray_rays.standard_error})");
-    say("residual", "{residual} after {iterations} " + plural(audit_.iterations, "iteration"),
-        audit_.converged           ? ""
-        : audit_.interrupted       ? " - INTERRUPTED, the best so far"
-        : !audit_.shortage.empty() ? " - OUT OF MEMORY, the best so far"
-        : audit_.target_missed     ? ""  // said above
-                                   : " - NOT CONVERGED");
+    say("residual", "{residual} after {iterations} " + plural(audit_.iterations, "iteration"));
+    row("status", status());
     if (!audit_.shortage.empty()) { say("memory", "{shortage}"); }
+  }
+
+  [[nodiscard]] std::string status() const {
+    using Status = radiosity::RunStatus;
+    switch (audit_.status()) {
+      case Status::interrupted:
+        return "INTERRUPTED, the best so far";
+      case Status::out_of_memory:
+        return "OUT OF MEMORY, the best so far";
+      case Status::target_missed:
+        return "TARGET MISSED, as told above";
+      case Status::estimate_refuted:
+        return "ESTIMATE REFUTED: solved as far as the links tell, but path tracing found more than three times their error";
+      case Status::not_converged:
+        return "NOT CONVERGED: the residual is larger than asked for";
+      case Status::converged:
+        break;
+    }
+    return "converged";
   }
 
   void settings() {
@@ -230,11 +261,8 @@ class Text {
 }  // namespace
 
 std::string picture_error_text(const radiosity::PictureError& picture, const std::string& camera) {
-  const auto share = [](const radiosity::ShareBounds& of) {
-    return of.least == of.most ? percent(of.least) : percent(of.least) + " to " + percent(of.most);
-  };
   std::string text = text_row("picture " + camera, error_text(picture.error));
-  text += text_row("  off by 2, 8 of 255", share(picture.over2) + ", " + share(picture.over8) + " of the pixels");
+  text += text_row("  off by 2, 8 of 255", shares_text(picture.over2, picture.over8));
   if (picture.worst) {
     text += text_row("  worst sixteenth", error_text(picture.worst->error) + ", column " + std::to_string(picture.worst->column + 1) +
                                               ", row " + std::to_string(picture.worst->row + 1) + " of 4");

@@ -46,6 +46,7 @@ struct Report {
   bool automatic_exposure = true;
   radiosity::ToneCurve tone = radiosity::ToneCurve::linear;
   std::optional<PictureReport> picture;
+  std::string picture_error_unknown;                 // why the error of the picture was asked for and is not known; else empty
   std::optional<radiosity::StageTime> picture_time;  // drawing and encoding; not part of the total
   std::optional<LightmapReport> lightmap;
   std::vector<std::string> files;  // what was written

@@ -192,8 +192,9 @@ Facts facts_of(const Report& report) {
   facts.add("residual", audit.residual, "%.2e");
   facts.add("iterations", audit.iterations, "1");
   add_list(facts, "residual_histories", audit.histories, [](JsonWriter& json, const std::vector<double>& history) { json.value(history); });
-  facts.add_all("", "", "converged", audit.converged, "interrupted", audit.interrupted, "shortage", audit.shortage, "coarsened",
-                audit.coarsened);
+  facts.add("status", std::string(name(audit.status())));
+  facts.add_all("", "", "converged", audit.status() == radiosity::RunStatus::converged, "interrupted", audit.interrupted, "shortage",
+                audit.shortage, "coarsened", audit.coarsened);
   add_settings(facts, report);
   add_lists(facts, report);
   return facts;

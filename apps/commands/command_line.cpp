@@ -166,7 +166,8 @@ ExitCode run_program(const std::vector<Command>& commands, int argc, char** argv
   CLI::App app("Radiosity for scenes of diffuse surfaces: every run says how wrong it is and how long it took.", "halflight");
   app.set_version_flag("--version", std::string("halflight ") + version);
   app.footer(
-      "Exit codes: 0 done, 1 failure, 2 wrong usage, 3 invalid scene, mesh or script, 4 not converged.\n"
+      "Exit codes: 0 done, 1 failure, 2 wrong usage, 3 invalid scene, mesh or script, 4 not converged, which is an\n"
+      "accuracy or residual that was asked for and not reached, or an end before time by a signal or for want of memory.\n"
       "'-' as a scene is the standard input; as the output of --json, --csv, explain or exercise, whose format is known, it is\n"
       "the standard output, and what is told goes to stderr then.");
   app.require_subcommand(1);

@@ -177,14 +177,17 @@ ExitCode write_solution(Artist& artist, const radiosity::Solution& solution, con
   leave_out_others(report.audit.stages);
   const auto outputs = encode(artist, solution, control, report);
   progress.done();
-  if (!outputs) { return report_failure({radiosity::Failure::Kind::cancelled, {}}, options.scene); }
-  if (const ExitCode code = write_all(*outputs); code != ExitCode::ok) { return code; }
+  if (const ExitCode code = write_all(outputs); code != ExitCode::ok) { return code; }
   if (!print(to_text(report), all_outputs(options))) { return ExitCode::failure; }
   if (!solution.audit.shortage.empty()) {
     return complain(solution.audit.shortage + "; the outputs show the best solution so far", ExitCode::not_converged);
   }
-  if (report.audit.interrupted) { return complain("interrupted: the outputs show the best solution so far", ExitCode::not_converged); }
-  if (solution.audit.converged) { return ExitCode::ok; }
+  if (report.audit.interrupted) {
+    const bool of_mesh = report.picture && report.picture->method != options.method;
+    return complain(std::string("interrupted: the outputs show the best solution so far") + (of_mesh ? ", pictures its mesh" : ""),
+                    ExitCode::not_converged);
+  }
+  if (solution.audit.converged || solution.audit.refuted) { return ExitCode::ok; }  // nobody had asked for an accuracy
   return complain("not converged: the outputs show what was reached", ExitCode::not_converged);
 }
 
@@ -233,8 +236,6 @@ ExitCode run(const RenderOptions& options) {
     control.viewpoint = artist.viewpoint();
   }
   const radiosity::Outcome outcome = radiosity::solve(file->scene, settings, control);
-  // The best solution so far is still drawn and written.
-  if (outcome.solution && outcome.solution->audit.interrupted) { control = control.unstoppable(); }
   progress.done();
   if (!outcome.solution) { return report_failure(outcome.failure, options.scene); }
 

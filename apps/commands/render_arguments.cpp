@@ -62,11 +62,13 @@ std::vector<Argument> refinement_arguments(RenderOptions& options) {
   };
   const std::vector<std::string> ends{"--error", "--target", "--time"};  // the refinement ends by at most one of these
   return {
-      above_zero("--error", solver.error, 1.0,
-                 "refine until the measured relative L2 error is at most this; out of reach, that is at 10 million links, the work "
-                 "of 40 million rays (one to three minutes of CPU time; audits take as much again, or twice to show that it is met), 2 GB "
-                 "without --memory, the finest thresholds or after three rounds without gain, it ends with the best solution and exit "
-                 "code 4"),
+      above_zero(
+          "--error", solver.error, 1.0,
+          "refine until the measured relative L2 error is at most this; out of reach, that is at 10 million links, the work "
+          "of 40 million rays (one to three minutes of CPU time; audits take as much again, or twice and 40 million rays more to show "
+          "that it is met), 2 GB "
+          "without --memory, the finest thresholds or after three rounds without gain, it ends with the best solution and exit "
+          "code 4"),
       one_of<std::optional<ErrorOf>, ErrorOf>(
           "--error-of", options.error_of, {{"picture", ErrorOf::picture}, {"surfaces", ErrorOf::surfaces}},
           "what --error and --mesh-error are about: picture, what the camera sees (the default of --error with a picture, of --mesh-error "

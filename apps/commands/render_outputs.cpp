@@ -156,6 +156,13 @@ const radiosity::Picture* Artist::draw(const radiosity::Mesh& mesh, const radios
   return picture_ ? &*picture_ : nullptr;
 }
 
+const radiosity::Picture* Artist::draw_mesh(const radiosity::Mesh& mesh, const radiosity::Tone& tone) {
+  constexpr unsigned samples = 2;  // along a pixel; of an interrupted run nobody wants to wait for more
+  shown_ = {};
+  picture_ = radiosity::draw(mesh, view_, tone, samples);
+  return &*picture_;
+}
+
 const radiosity::PictureAudit* Artist::meter() {
   if (!asked_) {
     audit_ = radiosity::PictureAudit::make(file_.scene);
@@ -165,10 +172,14 @@ const radiosity::PictureAudit* Artist::meter() {
 }
 
 std::optional<radiosity::PictureError> Artist::audit(const radiosity::Picture& picture, const radiosity::Tone& tone,
-                                                     const radiosity::AuditGoal& goal, const radiosity::Control& control) {
+                                                     const radiosity::AuditGoal& goal, const radiosity::Control& control,
+                                                     std::string* reason) {
   const radiosity::PictureAudit* const its = meter();
-  if (!its) { return std::nullopt; }
-  return its->measure(radiosity::audited(picture, view_, tone), goal, options_.solver.threads, options_.solver.seed, control);
+  if (!its) {
+    if (reason) { *reason = "the paths of this scene do not end, for its surfaces reflect nearly all light"; }
+    return std::nullopt;
+  }
+  return its->measure(radiosity::audited(picture, view_, tone), goal, options_.solver.threads, options_.solver.seed, control, reason);
 }
 
 std::uint64_t Artist::worth() {
@@ -187,26 +198,34 @@ std::vector<RenderOutput> encode(const RenderOptions& options, const radiosity::
 
 namespace {
 
-// Draws the picture, and enters its time and error in the report. Null if interrupted.
+// Draws the picture, and enters its time and error in the report. An interrupted run ends soon, so it does not gather light any more: its
+// picture shows the mesh, and is not audited.
 const radiosity::Picture* drawn(Artist& artist, const radiosity::Solution& solution, const radiosity::Tone& tone,
                                 const radiosity::Control& control, Report& report) {
   const RenderOptions& options = artist.options();
   std::vector<radiosity::StageTime> stages;
   radiosity::detail::Stopwatch watch(stages);
-  const radiosity::Mesh& mesh = options.method == PictureMethod::mesh ? solution.shown() : solution.mesh;
-  const radiosity::Picture* const picture = artist.draw(mesh, solution.frame, tone, control);
-  if (!picture) { return nullptr; }
-  report.picture = PictureReport{artist.camera().name, artist.size().width, artist.size().height, options.method};
+  PictureMethod method = options.method;
+  const radiosity::Mesh& mesh = method == PictureMethod::mesh ? solution.shown() : solution.mesh;
+  const radiosity::Picture* picture = control.cancelled() ? nullptr : artist.draw(mesh, solution.frame, tone, control);
+  if (!picture) {
+    if (method == PictureMethod::gather) {
+      report.audit.left_out.push_back({"the gathering of light for the picture, which shows the mesh", "the run was interrupted", ""});
+    }
+    method = PictureMethod::mesh;
+    picture = artist.draw_mesh(solution.shown(), tone);
+  }
+  report.picture = PictureReport{artist.camera().name, artist.size().width, artist.size().height, method};
   watch.lap("picture");
   if (std::string sentence = warning_of_dark_picture(*picture, artist.file(), artist.view()); !sentence.empty()) {
     report.audit.warnings.push_back(std::move(sentence));
   }
-  if (!report.audit.picture_error && options.solver.audit_points > 0) {
+  if (!report.audit.picture_error && options.solver.audit_points > 0 && !control.cancelled()) {
     const radiosity::AuditGoal goal = radiosity::goal_to_know(report.audit, options.solver.audit_points, artist.worth());
-    report.audit.picture_error = artist.audit(*picture, tone, goal, control);
+    report.audit.picture_error = artist.audit(*picture, tone, goal, control, &report.picture_error_unknown);
     watch.lap("picture audit");
-    report.audit.interrupted = report.audit.interrupted || control.cancelled();  // the picture is complete, but its error is not measured
   }
+  report.audit.interrupted = report.audit.interrupted || control.cancelled();
   leave_out_others(stages);
   report.picture_time = stages.front();
   report.audit.stages.insert(report.audit.stages.end(), stages.begin() + 1, stages.end());
@@ -215,18 +234,15 @@ const radiosity::Picture* drawn(Artist& artist, const radiosity::Solution& solut
 
 }  // namespace
 
-std::optional<std::vector<RenderOutput>> encode(Artist& artist, const radiosity::Solution& solution, const radiosity::Control& control,
-                                                Report& report) {
+std::vector<RenderOutput> encode(Artist& artist, const radiosity::Solution& solution, const radiosity::Control& control, Report& report) {
   const RenderOptions& options = artist.options();
   const SceneFile& file = artist.file();
-  if (control.cancelled()) { return std::nullopt; }
   std::vector<RenderOutput> outputs;
   const radiosity::Tone tone = artist.tone(solution.mesh);
   report.exposure = tone.exposure;
   report.tone = tone.curve;
   report.automatic_exposure = !options.exposure || options.exposure->of_automatic;
   const radiosity::Picture* const picture = has_picture(options) ? drawn(artist, solution, tone, control, report) : nullptr;
-  if (has_picture(options) && !picture) { return std::nullopt; }
   std::optional<ExportMesh> exported;
   const auto is_exported = [&](const std::string& path) {
     return render_format(path) == RenderFormat::exported || (options.onto_input && has_ending(path, ".ply"));

@@ -102,8 +102,12 @@ class Artist {
   // not drawn again.
   [[nodiscard]] const radiosity::Picture* draw(const radiosity::Mesh& mesh, const radiosity::Frame& frame, const radiosity::Tone& tone,
                                                const radiosity::Control& control);
+  // Draws the triangles of this mesh, coarsely, which takes a moment. Valid until the next call.
+  [[nodiscard]] const radiosity::Picture* draw_mesh(const radiosity::Mesh& mesh, const radiosity::Tone& tone);
+  // Nothing if interrupted, or if the error cannot be measured; then `reason` says why.
   [[nodiscard]] std::optional<radiosity::PictureError> audit(const radiosity::Picture& picture, const radiosity::Tone& tone,
-                                                             const radiosity::AuditGoal& goal, const radiosity::Control& control);
+                                                             const radiosity::AuditGoal& goal, const radiosity::Control& control,
+                                                             std::string* reason = nullptr);
 
  private:
   // What a picture shows; two solutions with the same sum of all radiosities, to the last bit, are the same.
@@ -136,8 +140,9 @@ struct RenderOutput {
 [[nodiscard]] std::vector<RenderOutput> encode(const RenderOptions& options, const radiosity::Picture& picture,
                                                const radiosity::Tone& tone);
 
-// All outputs, in memory; also completes the report. Nothing if interrupted.
-[[nodiscard]] std::optional<std::vector<RenderOutput>> encode(Artist& artist, const radiosity::Solution& solution,
-                                                              const radiosity::Control& control, Report& report);
+// All outputs, in memory; also completes the report. If the run was or is interrupted, pictures show the mesh (--method mesh), unless
+// their light has been gathered already.
+[[nodiscard]] std::vector<RenderOutput> encode(Artist& artist, const radiosity::Solution& solution, const radiosity::Control& control,
+                                               Report& report);
 
 }  // namespace apps

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <radiosity/audit/accuracy_target.hpp>
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -32,6 +33,10 @@ inline constexpr std::uint64_t link_budget = 10'000'000;
 // about a microsecond each. It depends neither on the target nor on what the audits found.
 inline constexpr std::uint64_t work_budget = 40'000'000;
 
+// Rays that the audits of all rounds together may take beyond their shares, to confirm the target (AuditGoal::reserve). They are spent
+// only where refining would cost more. About ten seconds.
+inline constexpr std::uint64_t reserve_of_audits = 40'000'000;
+
 // Memory limit of a round, in bytes, when Options::memory is not set. Needed because a lamp a millimetre from a wall would be
 // refined endlessly.
 inline constexpr std::uint64_t memory_of_rounds = 2'000'000'000;
@@ -59,6 +64,7 @@ class Rounds {
     round_.epsilon = 0.04;
     round_.min_area = 3.84e-3;
     round_.target = 0.16;
+    round_.audit_reserve = reserve_of_audits;
     if (!round_.memory) { round_.memory = memory_of_rounds; }
   }
 
@@ -83,6 +89,8 @@ class Rounds {
       round_.min_area *= step * step;  // scales with the area that shadow ends and contacts leave unresolved
     }
     round_.target *= 0.5;
+    const std::uint64_t used = audit.reserve_used + (audit.picture_error ? audit.picture_error->reserve_used : 0);
+    round_.audit_reserve -= std::min(round_.audit_reserve, used);
     const bool floor =
         round_.refinement == Refinement::a_priori ? round_.epsilon < 1e-5 || *round_.light_epsilon < 1e-6 : round_.target < 1e-4;
     // A round mostly takes about twice the work of the one before it.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <optional>
 
 #include <raycast/inline.hpp>
@@ -14,15 +15,18 @@ namespace radiosity {
 
 namespace detail {
 
+// An audit that shall show a mean square below the target takes so much that the gap between them is this many standard errors. The
+// interval ends two above the mean; one more, because chance moves the mean. A reserve, because a pilot mostly underestimates the variance.
+inline constexpr double reserve_of_variance = 1.1, errors_to_show = 3.0;
+
 // The standard error of the mean that the goal requires, estimated from a pilot in which `met` points count. Where noise hides the error,
 // the standard error of the pilot takes its place.
 [[nodiscard]] HALFLIGHT_INLINE double standard_error_needed(const AuditGoal& goal, const ErrorSums::Moments& seen, double met) {
-  constexpr double reserve = 1.1;  // because a pilot mostly underestimates the variance
   const double target = goal.wanted ? *goal.wanted * *goal.wanted : 0.0;
   const double doubt = std::sqrt(seen.variance / met);
-  return (goal.wanted ? std::max(std::abs(target - seen.ratio), 0.1 * target) / 2.5
+  return (goal.wanted ? std::max(std::abs(target - std::max(seen.ratio, 0.0)), 0.1 * target) / errors_to_show
                       : std::max(0.25 * std::max(seen.ratio, doubt), 0.5 * negligible_error * negligible_error)) /
-         reserve;
+         reserve_of_variance;
 }
 
 // Predicts the effect of more or fewer paths at each point. The noise is that of a product of two estimates, so its variance falls at
@@ -65,6 +69,34 @@ struct PathModel {
   return best;
 }
 
+// How many rays the audit may take in all, pilots included. `seen`: of `met` points with this model, which are the share `share` of all;
+// `fewest`: least number of points; `spent`: rays so far.
+[[nodiscard]] HALFLIGHT_INLINE double rays_allowed(const AuditGoal& goal, const ErrorSums::Moments& seen, const PathModel& model,
+                                                   double met, double share, double fewest, double spent) {
+  const auto plain = static_cast<double>(goal.rays), refine = static_cast<double>(goal.rays_to_refine);
+  if (!goal.wanted) { return plain; }
+  const double target = *goal.wanted * *goal.wanted, gap = target - std::max(seen.ratio, 0.0), doubt = std::sqrt(seen.variance / met);
+  const double without = seen.ratio <= target ? std::max(plain, static_cast<double>(goal.rays_to_show)) : plain;
+  if (goal.reserve == 0 || seen.ratio - 2.0 * doubt > target) { return without; }
+  // To show an error that is so far below the target.
+  const auto rays_to_show = [&](double below) {
+    const Effort effort =
+        best_effort(model, below / errors_to_show / reserve_of_variance, share, fewest, 0.0, std::numeric_limits<double>::infinity());
+    return static_cast<double>(effort.points) * model.rays_at(effort.paths);
+  };
+  // As long as noise hides the error nobody knows whether the target is met, whatever the mean is. Then a round that is much cheaper than
+  // the audit comes first; and one that costs as much, where the mean is above the target.
+  constexpr double left_by_round = 0.3;  // of the mean square: a round leaves about 0.55 of the error
+  const double much_cheaper = seen.ratio <= target ? 0.25 : 1.0;
+  constexpr double least_gap = 0.15, likely_gap = 0.5;
+  const bool known = doubt <= 0.5 * std::abs(gap);
+  if (known && gap < least_gap * target) { return without; }
+  const double now = rays_to_show(known ? gap : std::max(gap, likely_gap * target));
+  const double worth = known ? refine + rays_to_show(target - left_by_round * (target - gap)) : refine / much_cheaper;
+  const double most = std::max(plain, static_cast<double>(goal.rays_to_show)) + static_cast<double>(goal.reserve);
+  return now <= worth && spent + now <= most ? std::clamp(spent + worth, without, most) : without;
+}
+
 HALFLIGHT_INLINE Effort next_effort(const AuditGoal& goal, std::uint64_t least, const Effort& pilot, const ErrorSums& sums,
                                     std::uint64_t rays_of_pilot, std::uint64_t spent) {
   const auto few = static_cast<double>(pilot.points), own = static_cast<double>(rays_of_pilot), used = static_cast<double>(spent);
@@ -83,24 +115,24 @@ HALFLIGHT_INLINE Effort next_effort(const AuditGoal& goal, std::uint64_t least, 
   }
   const double off = standard_error_needed(goal, *seen, met);
   const double needed = seen->variance / (off * off) * few / met;
-  const std::uint64_t rays = goal.wanted && seen->ratio <= target ? std::max(goal.rays, goal.rays_to_show) : goal.rays;
+  const PathModel model{seen->variance, seen->noise_share, own / few, pilot.paths};
+  const double rays = rays_allowed(goal, *seen, model, met, met / few, fewest, used);
   // The noise variance falls with the square of the number of paths, so trading points for paths pays until noise makes up half of the
   // variance. Few points mostly underestimate its share. Where the least number of points already confirms the target, they may cost no
   // more than the solution. All pilots together take at most half of the rays.
-  const auto affordable = [&](std::uint64_t of) {
-    const double then = used + 4.0 * own, all = static_cast<double>(of);
+  const auto affordable = [&](double all) {
+    const double then = used + 4.0 * own;
     return 2.0 * then <= all && then + 4.0 * own * fewest / few <= all;
   };
-  if (seen->noise_share > 0.2 && affordable(needed > static_cast<double>(least) ? rays : goal.rays)) {
+  if (seen->noise_share > 0.2 && affordable(needed > static_cast<double>(least) ? rays : static_cast<double>(goal.rays))) {
     return {pilot.points, 4 * pilot.paths};
   }
   // If a few points outshine all others, the pilot estimates neither mean nor variance well.
   const bool uneven = seen->equal_points < std::min(16.0, met / 4.0);
   // Pilots may take more rays while they find the target met. If the last of them finds it missed, the audit takes as many rays as that
   // pilot.
-  const double left = std::max(goal.wanted ? own : 0.0, static_cast<double>(rays) - used);
-  return best_effort({seen->variance, seen->noise_share, own / few, pilot.paths}, off, met / few, fewest,
-                     uneven ? left : static_cast<double>(goal.rays_anyhow), left);
+  const double left = std::max(goal.wanted ? own : 0.0, rays - used);
+  return best_effort(model, off, met / few, fewest, uneven ? left : static_cast<double>(goal.rays_anyhow), left);
 }
 
 HALFLIGHT_INLINE std::optional<Effort> further_effort(const AuditGoal& goal, const Effort& audit, const ErrorSums& sums,
@@ -114,18 +146,18 @@ HALFLIGHT_INLINE std::optional<Effort> further_effort(const AuditGoal& goal, con
   // The same holds for a target, because the interval ends two standard errors above the mean. A mean that is closer to the target than
   // the fraction `least_gap` may be so by chance; the target then stays undecided, because a finer solution tells more for the same rays.
   constexpr double least_gap = 0.15;
+  const PathModel model{seen->variance, std::max(seen->noise_share, 1.0 / 32.0), static_cast<double>(rays_of_audit) / points, audit.paths};
   double off = 0.25 * std::max(seen->ratio, doubt), most = 0.5 * (std::max(seen->ratio, 0.0) + doubt);
   auto left = goal.rays_if_wide > 0 ? static_cast<double>(goal.rays + goal.rays_if_wide) - static_cast<double>(spent) : 0.0;
   if (goal.wanted) {
     if (error->within(*goal.wanted) || seen->ratio > target) { return std::nullopt; }
-    left = static_cast<double>(std::max(goal.rays, goal.rays_to_show)) - static_cast<double>(spent);
+    left = rays_allowed(goal, *seen, model, met, met / points, points / 2.0, static_cast<double>(spent)) - static_cast<double>(spent);
     off = std::max(target - std::max(seen->ratio, 0.0), least_gap * target) / 3.0;
     most = (target - std::max(seen->ratio, 0.0)) / 2.0;
   } else if (!is_wide(*error)) {
     return std::nullopt;
   }
   if (!(left > 0.0) || !(off > 0.0)) { return std::nullopt; }
-  const PathModel model{seen->variance, std::max(seen->noise_share, 1.0 / 32.0), static_cast<double>(rays_of_audit) / points, audit.paths};
   const Effort then = best_effort(model, off, met / points, points / 2.0, 0.0, left);
   const double reached = std::sqrt(model.variance_at(then.paths) * points / (static_cast<double>(then.points) * met));
   const bool fits = static_cast<double>(then.points) * model.rays_at(then.paths) <= 1.01 * left;

@@ -13,7 +13,10 @@
 //                                interval comes out wider than the error itself and the rays would narrow it
 //   a round towards a target     as much as the solution of that round was worth; for a picture, as long as drawing it took, besides
 //   confirming the target        twice as much, but for the solution at least rays_that_show; only if the pilot finds the target met. If a
-//                                second pilot then finds it missed, an audit of about the size of that pilot follows
+//                                second pilot then finds it missed, an audit of about the size of that pilot follows. More than that,
+//                                from a reserve that all rounds share, where it confirms the target in fewer rays than the next round
+//                                and its audit take: a finer solution moves the error away from the target, but the noise of the paths
+//                                stays, and hides the error as before
 //   a target missed in the end   as an audit without a target, once more from fresh points, for a picture; so a target is met by chance
 //                                about twice as often as the interval says
 // The price of a point is known from the pilot alone, to about a quarter where few points receive light. The budget is exceeded only by
@@ -46,12 +49,17 @@ struct AuditGoal {
   std::uint64_t rays_anyhow = 0;    // at least as many: a pilot may have met the few points that matter by chance, or missed them
   std::uint64_t rays_if_wide = 0;   // additional limit when the interval comes out wider than the error itself
   std::uint64_t rays_to_steer = 0;  // limit of the measurement that plans the next round; independent of `wanted`
+  // Rays that may be taken beyond rays_to_show, to confirm `wanted` where that takes fewer rays than to refine first; and how many rays
+  // the next round takes, as long as its solution and its picture.
+  std::uint64_t reserve = 0, rays_to_refine = 0;
 
   // The same goal when a ray costs `work` times as much (raycast::Scene::ray_work).
   [[nodiscard]] AuditGoal among_rays_of(double work) const {
     const double part = steady(1.0 / work);
     const auto fewer = [part](std::uint64_t count) { return static_cast<std::uint64_t>(static_cast<double>(count) * part); };
-    return {points, fewer(rays), wanted, fewer(rays_to_show), fewer(rays_anyhow), fewer(rays_if_wide), fewer(rays_to_steer)};
+    return {
+        points,         fewer(rays),          wanted, fewer(rays_to_show), fewer(rays_anyhow), fewer(rays_if_wide), fewer(rays_to_steer),
+        fewer(reserve), fewer(rays_to_refine)};
   }
 
   // The goal of a round towards a target when a picture worth `picture` is judged: its audit may take as long as that took, too.
@@ -65,6 +73,7 @@ inline AuditGoal AuditGoal::and_picture(std::uint64_t picture) const {
   AuditGoal goal = *this;
   goal.rays += rays_a_work * picture;
   goal.rays_to_show += 2 * rays_a_work * picture;
+  goal.rays_to_refine += rays_a_work * picture;
   return goal;
 }
 
@@ -105,13 +114,21 @@ inline constexpr double microseconds_of_ray = 0.3;
   return {points, half, {}, 0, std::min(half, rays_worth(audit)) / 2, half};
 }
 
-// For the audit of a round towards a target. A quarter of the rays is reserved for the measurement that plans the next round.
-[[nodiscard]] inline AuditGoal goal_of_round(const Audit& audit, std::uint32_t points, double wanted) {
+// For the audit of a round towards a target. A quarter of the rays is reserved for the measurement that plans the next round. `reserve`:
+// see AuditGoal.
+[[nodiscard]] inline AuditGoal goal_of_round(const Audit& audit, std::uint32_t points, double wanted, std::uint64_t reserve = 0) {
   constexpr std::uint64_t rays_that_show = 4'000'000;
   const std::uint64_t worth = rays_worth(audit);
   AuditGoal goal{points, 3 * worth / 4, wanted, std::max(rays_that_show, 2 * worth)};
   goal.rays_to_steer = worth / 4;
+  goal.reserve = reserve;
+  goal.rays_to_refine = rays_a_work * 2 * worth;  // a round mostly takes about twice the work of the one before it
   return goal;
+}
+
+// What an audit of `rays` has taken from the reserve of the goal; both in rays of the same cost.
+[[nodiscard]] inline std::uint64_t used_of_reserve(const AuditGoal& goal, std::uint64_t rays) {
+  return rays - std::min(rays, std::max(goal.rays, goal.rays_to_show));
 }
 
 namespace detail {

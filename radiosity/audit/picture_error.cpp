@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -53,10 +54,11 @@ HALFLIGHT_INLINE std::optional<PictureAudit> PictureAudit::make(const Scene& sce
 }
 
 HALFLIGHT_INLINE std::optional<PictureError> PictureAudit::measure(const ShownPicture& picture, const AuditGoal& goal, unsigned threads,
-                                                                   std::uint64_t seed, const Control& control) const {
+                                                                   std::uint64_t seed, const Control& control, std::string* reason) const {
   std::uint64_t keys = 0;
   Measured measured;
   std::uint64_t rays = 0;  // including all pilots
+  bool reflects = false;   // has a pixel been found that counts?
   const double price = ray_work();
   const PixelDraw draw = draw_of(picture, goal.among_rays_of(price).rays / 8, rays, control);
   // A ray at the visible points may cost more or less than the mean over the scene, so it is priced again there.
@@ -65,7 +67,8 @@ HALFLIGHT_INLINE std::optional<PictureError> PictureAudit::measure(const ShownPi
   const bool pays = aimed && aiming_pays({picture, draw, tracer_, seed}, *aimed, threads, rays);
   const Series series{picture, draw, pays ? *aimed : tracer_, seed};
   const double seen_price = ray_price(series);
-  AuditGoal own = goal.among_rays_of(seen_price > 0.0 ? seen_price / microseconds_of_ray : price);
+  const double own_price = seen_price > 0.0 ? seen_price / microseconds_of_ray : price;
+  AuditGoal own = goal.among_rays_of(own_price);
   own.rays -= std::min(own.rays, rays);
   const auto measure = [&](std::uint64_t points, std::uint32_t paths, Measured& to) {
     const std::uint32_t side = PixelDraw::side(points);
@@ -82,21 +85,31 @@ HALFLIGHT_INLINE std::optional<PictureError> PictureAudit::measure(const ShownPi
       to.rays += sample.rays;
       const double w = sample.weight;
       if (sample.valid) { to.sums.add(w * sample.square, w * sample.reference, w * w * sample.noise); }
+      reflects = reflects || sample.valid;
     }
     return !control.cancelled();
   };
   Measured steering;
+  const std::uint64_t before = rays;
   if (own.rays_to_steer > 0 && !measure(steering_points, steering_paths(own), steering)) { return std::nullopt; }
   if (!measure_to_goal<Measured>(
           measure, [](const Measured& m) -> const ErrorSums& { return m.sums; }, own, measured)) {
     return std::nullopt;
   }
   const std::optional<ErrorEstimate> error = measured.sums.estimate();
-  if (!error) { return std::nullopt; }
+  if (!error) {
+    if (reason) {
+      *reason = reflects ? "hardly any path from its pixels meets light that could be compared with it"
+                         : "it shows no surface that does not shine";
+    }
+    return std::nullopt;
+  }
+  const std::uint64_t rays_of_goal = rays - before - steering.rays;
   PictureError result;
   result.error = *error;
   result.points = measured.sums.square.size();
   result.rays = rays;
+  result.reserve_used = static_cast<std::uint64_t>(own_price * static_cast<double>(used_of_reserve(own, rays_of_goal)));
   double all = 0.0;
   for (const Sample& sample : measured.samples) {
     all += sample.weight;

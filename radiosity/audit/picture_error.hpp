@@ -13,6 +13,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include <raycast/object.hpp>
@@ -49,10 +50,10 @@ class PictureAudit {
   // Nothing for an invalid scene, or for one in which paths do not end (plan.hpp).
   [[nodiscard]] static std::optional<PictureAudit> make(const Scene& scene);
 
-  // Nothing when cancelled or when no visible pixel reflects light. `rays`: see AuditGoal. The result depends on picture, goal and seed
-  // alone.
+  // Nothing when cancelled or when the error cannot be measured; then `reason` receives a sentence that says why, if given. `rays`: see
+  // AuditGoal. The result depends on picture, goal and seed alone.
   [[nodiscard]] std::optional<PictureError> measure(const ShownPicture& picture, const AuditGoal& goal, unsigned threads,
-                                                    std::uint64_t seed, const Control& control = {}) const;
+                                                    std::uint64_t seed, const Control& control = {}, std::string* reason = nullptr) const;
 
   // The cost of a ray of a path, relative to a scene of few polygons.
   [[nodiscard]] double ray_work() const { return prepared_->objects.ray_work() + prepared_->objects.walk_work(); }

@@ -19,7 +19,6 @@
 #include <radiosity/camera/seen_surfaces.hpp>
 #include <radiosity/camera/smooth_shadows.hpp>
 #include <radiosity/scene/batches.hpp>
-#include <radiosity/support/parallel.hpp>
 #include <radiosity/support/random.hpp>
 
 namespace radiosity {
@@ -121,8 +120,8 @@ HALFLIGHT_INLINE bool GatherPainter::gather() {
   }
   const auto again = [&](std::size_t i) { return indirect(fragments[i], gather_rays_again); };
   if (!points_.gather_again(blocks_.threads(), blocks_.control(), again)) { return false; }
-  parallel_for(points_.size(), blocks_.threads(), [&](std::size_t i) { points_.fit(i); });
-  return true;
+  const auto fit = [&](std::size_t i) { points_.fit(i); };
+  return parallel_in_batches(blocks_.control(), blocks_.threads(), points_.size(), {points_.size(), 64}, fit);
 }
 
 // Indirect irradiance, interpolated between the points.
@@ -144,6 +143,7 @@ HALFLIGHT_INLINE void GatherPainter::light_block(std::size_t block) {
     const std::uint32_t surface = fragments[order[begin]].place.surface;
     while (end < order.size() && fragments[order[end]].place.surface == surface) { ++end; }
     if (is_black(light_.material(surface).reflectance)) { continue; }
+    if (blocks_.control().cancelled()) { return; }
     const auto own = std::span(order).subspan(begin, end - begin);
     for (const std::uint32_t i : own) { indirect[i] = irradiance[i] = indirect_at(fragments[i]); }
     add_direct_light(light_, own, fragments, irradiance);

@@ -18,7 +18,6 @@
 #include <radiosity/scene/batches.hpp>
 #include <radiosity/scene/material.hpp>
 #include <radiosity/scene/options.hpp>
-#include <radiosity/support/parallel.hpp>
 
 namespace radiosity {
 
@@ -72,8 +71,8 @@ class IndirectPoints {
 template <class Gather>
 bool IndirectPoints::gather_again(unsigned threads, const Control& control, const Gather& gather) {
   std::vector<char> doubtful(points_.size());
-  parallel_for(
-      points_.size(), threads, [&](std::size_t i) { doubtful[i] = is_doubtful(points_[i], around(points_[i])) ? 1 : 0; }, 64);
+  const auto doubt = [&](std::size_t i) { doubtful[i] = is_doubtful(points_[i], around(points_[i])) ? 1 : 0; };
+  if (!parallel_in_batches(control, threads, points_.size(), {points_.size(), 64}, doubt)) { return false; }
   std::vector<std::size_t> chosen;
   for (std::size_t i = 0; i < doubtful.size(); ++i) {
     if (doubtful[i] != 0) { chosen.push_back(i); }

@@ -27,12 +27,14 @@ class PictureBlocks {
   [[nodiscard]] unsigned threads() const { return threads_; }
   [[nodiscard]] const Control& control() const { return control_; }
 
-  // Calls body(block) for each block; reports progress between `from` and `to`. False when cancelled.
+  // Calls body(block) for each block; reports progress between `from` and `to`. False when cancelled, after which a body may return before
+  // its block is done: one block can take long where many lamps shine.
   template <class Body>
   [[nodiscard]] bool each_block(double from, double to, const Body& body) const {
-    return parallel_in_batches(control_, threads_, count(), {512, 4}, body, [&](std::size_t done) {
+    const auto report = [&](std::size_t done) {
       control_.report("picture", from + (to - from) * static_cast<double>(done) / static_cast<double>(count()));
-    });
+    };
+    return parallel_in_batches(control_, threads_, count(), {512, 4}, body, report) && !control_.cancelled();
   }
   // Calls body(x, y) for each pixel of a block, by rows.
   template <class Body>

@@ -76,7 +76,7 @@ void SeenSurfaces::look_again(std::size_t block, const Wanted& wanted, std::span
   blocks_.each_pixel(block, [&](std::uint32_t x, std::uint32_t y) {
     const auto first = next;
     while (next != fragments_[block].end() && next->x == x && next->y == y) { ++next; }
-    if (!wanted(x, y)) {
+    if (!wanted(x, y) || blocks_.control().cancelled()) {
       result.insert(result.end(), first, next);
       return;
     }

@@ -179,6 +179,7 @@ HALFLIGHT_INLINE void SmoothShadows::average(std::size_t block) {
     }
     LitRegion region = light_.lit_region(places);
     for (auto one = begin; one != end; ++one) {
+      if (blocks_.control().cancelled()) { return; }
       const Color& indirect = indirect_[block][one->fragment];
       const MeanLight mean = one->few.empty() ? mean_light(region, one->many, indirect) : mean_light(region, one->few, one->many, indirect);
       irradiance_[block][one->fragment] = mean.direct + indirect;
@@ -204,7 +205,10 @@ HALFLIGHT_INLINE bool SmoothShadows::smooth(double from, double to) {
       blocks_.control().report("picture", done + share * static_cast<double>(count) / static_cast<double>(waiting.size()));
     };
     const auto one = [&](std::size_t k) { average(waiting[k]); };
-    if (!parallel_in_batches(blocks_.control(), blocks_.threads(), waiting.size(), {512, 4}, one, report)) { return false; }
+    if (!parallel_in_batches(blocks_.control(), blocks_.threads(), waiting.size(), {512, 4}, one, report) ||
+        blocks_.control().cancelled()) {
+      return false;
+    }
     done += share;
   } while (follow());
   return true;

@@ -17,6 +17,7 @@
 
 #include <radiosity/picture/final_gather.hpp>
 #include <radiosity/picture/gathered_point.hpp>
+#include <radiosity/scene/batches.hpp>
 #include <radiosity/scene/material.hpp>
 #include <radiosity/scene/options.hpp>
 #include <radiosity/support/parallel.hpp>
@@ -111,8 +112,8 @@ HALFLIGHT_INLINE bool IrradianceCache::extend(std::span<const Wanted> wanted, co
     }
     first += looked_at;
     found.resize(chosen.size());
-    parallel_for(
-        chosen.size(), threads_, [&](std::size_t k) { found[k] = gather(wanted[chosen[k]]); }, 4);
+    const auto gather_one = [&](std::size_t k) { found[k] = gather(wanted[chosen[k]]); };
+    if (!parallel_in_batches(control, threads_, chosen.size(), {batch, 4}, gather_one)) { return false; }
     for (const GatheredPoint& point : found) { add(point); }
     control.report("mesh", static_cast<double>(first) / static_cast<double>(order.size()));
   }

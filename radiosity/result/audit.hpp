@@ -55,7 +55,23 @@ struct MeshRefinement {
   bool met = false;
 };
 
+// What became of a run. If several hold, the first in this order is told.
+enum class RunStatus { interrupted, out_of_memory, target_missed, estimate_refuted, not_converged, converged };
+inline constexpr const char* name(RunStatus status) {
+  constexpr const char* names[] = {"interrupted", "out of memory", "target missed", "estimate refuted", "not converged", "converged"};
+  return names[static_cast<int>(status)];
+}
+
 struct Audit {
+  [[nodiscard]] RunStatus status() const {
+    return interrupted         ? RunStatus::interrupted
+           : !shortage.empty() ? RunStatus::out_of_memory
+           : target_missed     ? RunStatus::target_missed
+           : refuted           ? RunStatus::estimate_refuted
+           : !converged        ? RunStatus::not_converged
+                               : RunStatus::converged;
+  }
+
   // time
   std::vector<StageTime> stages;
   double wall_seconds = 0.0, cpu_seconds = 0.0;  // of all stages except the audit
@@ -71,6 +87,7 @@ struct Audit {
   std::uint64_t rays_avoided = 0;                   // lower bound, from two proofs:
   std::uint64_t pairs_clear = 0, pairs_hidden = 0;  // links that nothing can block; pairs that one object hides, with all pairs below
   std::uint64_t audit_rays = 0;                     // of the audit over all surfaces, including its pilots
+  std::uint64_t reserve_used = 0;                   // of AuditGoal::reserve, in rays among few polygons
   double ray_price = 1.0;                           // cost of a ray of the audit's paths, relative to a scene of few polygons
   double ray_work = 1.0;                            // cost of a ray of a path, relative to a scene of few polygons
   std::uint64_t bytes = 0;  // held by the result: BReps, hierarchy, links, compiled objects; the last stage has the peak
@@ -90,16 +107,18 @@ struct Audit {
   double residual = 0.0;
   std::uint32_t iterations = 0;
   std::vector<std::vector<double>> histories;  // by channel: the relative residual at the start and after each iteration
-  bool converged = true;                       // residual reached and, if requested, the error target
-  bool interrupted = false;                    // stopped early with the best solution so far; its error may not be measured
-  bool coarsened = false;  // F-refinement used larger thresholds than requested, because it was interrupted or short of memory
-  std::string shortage;    // what ended the run early for lack of memory, and advice; then not converged
+  // Residual reached and, if an error target was requested, that target. Without a target: not refuted.
+  bool converged = true;
+  bool interrupted = false;  // stopped early with the best solution so far; its error may not be measured
+  bool coarsened = false;    // F-refinement used larger thresholds than requested, because it was interrupted or short of memory
+  std::string shortage;      // what ended the run early for lack of memory, and advice; then not converged
   // error
   // Relative L2, estimated from the variation that links and leaves cannot express (link_error.hpp): of a picture or of the leaves, as
   // requested; of the leaves.
   std::optional<double> estimated_error, estimated_leaf_error;
   std::string estimate_doubt;     // why the estimate is no bound of the error, or far above it; empty if it may be taken as one
   bool target_missed = false;     // of Options::error, by the audit; of Options::target, by the estimate or the audit
+  bool refuted = false;           // without a target: did the audit find more than three times the estimated error?
   std::string rounds_ended_by;    // if Options::error was missed: the reason why the rounds ended, such as "three rounds without gain"
   std::uint32_t generations = 0;  // of BF-refinement
   std::uint64_t audit_points = 0;

@@ -73,7 +73,8 @@ struct PictureError {
   };
   std::optional<Tile> worst;
   std::uint64_t points = 0, rays = 0;     // rays: including pilots
-  std::uint64_t picture_work = 0;         // approximate work of the picture, in path-tracing rays among few polygons
+  std::uint64_t reserve_used = 0;         // of AuditGoal::reserve, in path-tracing rays among few polygons
+  std::uint64_t picture_work = 0;         // approximate work of the picture, in the same unit
   std::optional<ErrorEstimate> steering;  // from points and paths whose number does not depend on the wanted error
 };
 

@@ -35,7 +35,7 @@ HALFLIGHT_INLINE void measure_errors(Run& run) {
   SurfaceErrorMeter meter{run.scene, *run.tracer, solution.shown(), run.direct ? &*run.direct : nullptr, options.seed};
   audit.ray_work = run.scene.objects.ray_work() + run.scene.objects.walk_work();
   const AuditGoal to_know = goal_to_know(audit, options.audit_points);
-  AuditGoal goal = options.error ? goal_of_round(audit, options.audit_points, *options.error) : to_know;
+  AuditGoal goal = options.error ? goal_of_round(audit, options.audit_points, *options.error, options.audit_reserve) : to_know;
   if (options.error && control.picture_error) {
     Mesh shown = solution.mesh;
     to_scene(shown, solution.frame);
@@ -68,28 +68,58 @@ HALFLIGHT_INLINE void measure_errors(Run& run) {
     if (split > 0.0) { audit.direct_share = direct / split; }
   }
   SurfaceError measured;
+  const std::uint64_t before = audit.audit_rays;
   if (!measure_to_goal<SurfaceError>(measure, sums, goal, measured)) { return; }
+  if (goal.reserve > 0) {
+    audit.reserve_used =
+        static_cast<std::uint64_t>(audit.ray_price * static_cast<double>(used_of_reserve(goal, audit.audit_rays - before)));
+  }
   audit.leaf_error = measured.leaf.estimate();
   if (reconstructed) { audit.surface_error = measured.reconstructed.estimate(); }
   audit.audit_points = measured.points();
 }
 
-// A sentence if the error found by path tracing differs from the links' estimate by more than a factor of three, whatever its interval,
-// because a wide interval must not excuse the estimate. If noise hides the error only the upper end of its interval is used.
-HALFLIGHT_INLINE std::string contradiction(const std::optional<double>& estimate, const std::optional<ErrorEstimate>& measured,
-                                           std::uint64_t points) {
-  constexpr double most = 3.0;
-  constexpr std::uint64_t fewest_points = 250;  // fewer may miss what matters
-  if (!estimate || !measured || points < fewest_points) { return {}; }
-  const bool found = measured->low > 0.0;
-  const double error = found ? measured->relative_l2 : measured->high;
-  const bool low = found && error > most * *estimate;
-  const bool high = *estimate > most * error;
+inline constexpr double most_off = 3.0;              // the estimate may differ from the error by this factor
+inline constexpr std::uint64_t enough_points = 250;  // of an audit; fewer may miss what matters, or meet it too often
+
+// Has path tracing found that the error is larger than the estimate allows? A wide interval must not excuse the estimate, so the measured
+// error itself decides; but fewer points than `enough_points` may have met a few large errors by chance, and then the interval decides.
+[[nodiscard]] HALFLIGHT_INLINE bool refutes(const ErrorEstimate& measured, std::uint64_t points, double estimate) {
+  const bool found = measured.low > 0.0 && points >= enough_points;
+  return measured.above(most_off * estimate) || (found && measured.relative_l2 > most_off * estimate);
+}
+
+// A sentence if the error found by path tracing differs from the links' estimate by more than a factor of three. If noise hides the error
+// only the upper end of its interval is used.
+[[nodiscard]] HALFLIGHT_INLINE std::string contradiction(double estimate, const ErrorEstimate& measured, std::uint64_t points) {
+  const bool found = measured.low > 0.0, low = refutes(measured, points, estimate);
+  const double error = found ? measured.relative_l2 : measured.high;
+  const bool high = points >= enough_points && estimate > most_off * error;  // fewer may miss what matters
   if (!low && !high) { return {}; }
   char text[80] = "";
   std::snprintf(text, sizeof text, "%s: path tracing found %s%.3g %%", low ? "no bound" : "too high", found ? "" : "at most ",
                 100.0 * error);
   return text;
+}
+
+// Compares the errors found by path tracing with those estimated from the links. The estimate is for the light of the links, so it is not
+// compared with the error of a mesh in gathered light. Where nobody has asked for an accuracy the estimate is all that a run could have
+// reached, so a run that is refuted has not converged.
+HALFLIGHT_INLINE void compare_with_estimate(Run& run) {
+  Audit& audit = run.solution.audit;
+  std::string found;
+  bool refuted = false;
+  const auto compare = [&](const std::optional<double>& estimate, const std::optional<ErrorEstimate>& measured) {
+    if (!estimate || !measured) { return; }
+    if (found.empty()) { found = contradiction(*estimate, *measured, audit.audit_points); }
+    refuted = refuted || refutes(*measured, audit.audit_points, *estimate);
+  };
+  if (!run.solution.refined) { compare(audit.estimated_error, audit.surface_error); }
+  compare(audit.estimated_leaf_error, audit.leaf_error);
+  if (!found.empty()) { audit.estimate_doubt = found; }
+  const bool asked = run.options.error || (run.bf_refined() && !run.options.time);
+  audit.refuted = audit.converged && refuted && !asked;
+  audit.converged = audit.converged && !audit.refuted;
 }
 
 // Checks whether BF-refinement has met its target, by its own estimate and, if there is one, by the audit.
@@ -116,12 +146,7 @@ HALFLIGHT_INLINE std::optional<Failure> audit(detail::Run& run) {
     if (control.picture_error) { audit.picture_error = PictureError{}; }
   } else if (options.audit_points > 0 && plan.traceable && !run.stopped()) {
     detail::measure_errors(run);
-    // The estimate is for the light of the links, so it is not compared with the error of a mesh in gathered light.
-    const std::string of_picture =
-        run.solution.refined ? std::string{} : detail::contradiction(audit.estimated_error, audit.surface_error, audit.audit_points);
-    const std::string of_leaves = detail::contradiction(audit.estimated_leaf_error, audit.leaf_error, audit.audit_points);
-    const std::string& found = of_picture.empty() ? of_leaves : of_picture;
-    if (!found.empty()) { audit.estimate_doubt = found; }
+    detail::compare_with_estimate(run);
     run.watch.lap("audit");
   }
   if (run.bf_refined() && !options.time && !options.error) { detail::check_target(run); }

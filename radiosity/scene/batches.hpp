@@ -4,6 +4,7 @@
 // Long loops that the caller of a run can cancel: they are done in batches, and the cancel flag is looked at before each of them.
 
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
 
 #include <radiosity/scene/options.hpp>
@@ -23,18 +24,29 @@ bool in_batches(const Control& control, std::size_t count, std::size_t size, con
 }
 
 struct Batches {
-  std::size_t size;   // between two looks at the cancel flag
+  std::size_t size;   // between two calls of `done`
   std::size_t block;  // of parallel_for
 };
 
-// The same with parallel_for: calls body(i) for each i in [0, count), and done(number of those done so far) after each batch.
+// The same with parallel_for: calls body(i) for each i in [0, count), and done(number of those done so far) after each batch. The flag is
+// looked at before each call of body, so that a run which is cancelled ends within one such call of each thread.
 template <class Body, class Done>
 bool parallel_in_batches(const Control& control, unsigned threads, std::size_t count, Batches batches, const Body& body, const Done& done) {
-  return in_batches(control, count, batches.size, [&](std::size_t first, std::size_t last) {
+  std::atomic<bool> complete{true};
+  const bool begun = in_batches(control, count, batches.size, [&](std::size_t first, std::size_t last) {
     parallel_for(
-        last - first, threads, [&](std::size_t k) { body(first + k); }, batches.block);
-    done(last);
+        last - first, threads,
+        [&](std::size_t k) {
+          if (control.cancelled()) {
+            complete.store(false, std::memory_order_relaxed);
+          } else {
+            body(first + k);
+          }
+        },
+        batches.block);
+    if (complete) { done(last); }
   });
+  return begun && complete;
 }
 template <class Body>
 bool parallel_in_batches(const Control& control, unsigned threads, std::size_t count, Batches batches, const Body& body) {

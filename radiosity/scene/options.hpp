@@ -79,6 +79,9 @@ struct Options {
   // that of the picture if Control::picture_error is given, otherwise that over all surfaces. Also ends when the budget of links, work or
   // memory is used up, or when there is no more gain (audit/accuracy_target.hpp).
   std::optional<double> error = {};
+  // Of one round towards `error`: rays that its audit may take from the reserve that all rounds share (audit/audit_effort.hpp). Set by the
+  // run itself.
+  std::uint64_t audit_reserve = 0;
 
   // Makes a second mesh, with gathered light (picture/mesh_refiner.hpp), whose faces are split until the relative L2 error of its colours
   // is at most this: Solution::refined. Requires shared topology and a reconstruction with colours at the corners.

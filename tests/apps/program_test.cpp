@@ -169,7 +169,7 @@ TEST_CASE("the error of a picture of nothing but lamps is unknown, and the repor
   const std::string arguments = "render a.scene -o a.png --json a.json --size 16x16 --epsilon 0.1 --quiet";
   const Run run = place.run(arguments);
   REQUIRE(run.code == 0);
-  CHECK(run.out.find("picture eye             unknown") != std::string::npos);
+  CHECK(run.out.find("picture eye             unknown: it shows no surface that does not shine") != std::string::npos);
   CHECK(json::parse(place.read("a.json"))["error"]["picture"].is_null());
   CHECK(place.run(arguments + " --audit 0").out.find("unknown") == std::string::npos);  // nobody asked
 }

@@ -2,9 +2,11 @@
 
 // The audit of a picture: it finds errors that were put into pixels, where they are, and only those that the camera sees.
 
+#include <atomic>
 #include <cmath>
 #include <cstdint>
 #include <random>
+#include <string>
 
 #include <raycast/objects/sphere.hpp>
 #include <raycast/ray.hpp>
@@ -12,6 +14,7 @@
 #include <radiosity/audit/picture_error.hpp>
 #include <radiosity/result/error_estimate.hpp>
 #include <radiosity/scene/material.hpp>
+#include <radiosity/scene/options.hpp>
 #include <radiosity/scene/scene.hpp>
 
 #include "catch.hpp"
@@ -44,7 +47,8 @@ PictureError measured_picture(const radiosity::Scene& scene, const ShownPicture&
 
 }  // namespace
 
-TEST_CASE("picture audit: a picture of a furnace that is right is found right, one that is off by 5 % as much off everywhere", "[accuracy]") {
+TEST_CASE("picture audit: a picture of a furnace that is right is found right, one that is off by 5 % as much off everywhere",
+          "[accuracy]") {
   const radiosity::Scene scene = scenes::furnace_with_things(0.5);  // B = 1, half of it reflected
   const glm::dvec3 eye{0.5, 0.02, 0.5};
   int found_right = 0;
@@ -202,4 +206,39 @@ TEST_CASE("picture audit: results do not depend on the number of threads") {
   CHECK(one.error.relative_l2 == two.error.relative_l2);
   CHECK(one.error.high == two.error.high);
   CHECK(one.rays == two.rays);
+}
+
+TEST_CASE("picture audit: an error that is not measured has a reason, unless the audit was told to stop") {
+  const radiosity::Scene closed = scenes::furnace_with_things(0.5);
+  radiosity::Scene shining = scenes::two_plates(0.5);
+  radiosity::Scene dark = scenes::two_plates(0.5);
+  for (radiosity::Material& material : dark.materials) { material.emission = Color{0.0}; }
+  const std::atomic<bool> stop{true};
+  struct Case {
+    const char* name;
+    radiosity::Scene scene;
+    glm::dvec3 eye;
+    bool stopped, measured;
+    const char* reason;
+  };
+  const Case cases[] = {{"a furnace", closed, {0.5, 0.02, 0.5}, false, true, ""},
+                        {"a furnace, stopped", closed, {0.5, 0.02, 0.5}, true, false, ""},
+                        {"nothing", shining, {0.5, 5.0, 0.5}, false, false, "it shows no surface that does not shine"},
+                        {"plates without a lamp",
+                         dark,
+                         {0.5, -2.0, 0.5},
+                         false,
+                         false,
+                         "hardly any path from its pixels meets light that could be compared with it"}};
+  for (const Case& of : cases) {
+    INFO(of.name);
+    const auto audit = PictureAudit::make(of.scene);
+    REQUIRE(audit);
+    radiosity::Control control;
+    if (of.stopped) { control.cancel = &stop; }
+    std::string reason;
+    const auto error = audit->measure(seen_from(of.eye, [](auto, auto) { return Color{1.0}; }), {400, 400'000}, 1, 1, control, &reason);
+    CHECK(error.has_value() == of.measured);
+    CHECK(reason == of.reason);
+  }
 }
