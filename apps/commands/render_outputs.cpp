@@ -141,12 +141,20 @@ radiosity::Tone Artist::tone(const radiosity::Mesh& mesh) const {
   return {automatic ? factor * radiosity::automatic_exposure(mesh, file_.scene, view_) : factor, options_.tone};
 }
 
-const radiosity::Picture* Artist::draw(const radiosity::Mesh& mesh, const radiosity::Frame& frame, const radiosity::Tone& tone,
-                                       const radiosity::Control& control) {
+Artist::Light Artist::light_of(const radiosity::Mesh& mesh, const radiosity::Tone& tone) {
   Light light{mesh.corners.size(), radiosity::Color{0.0}, tone.exposure};
   for (const radiosity::MeshCorner& corner : mesh.corners) { light.sum += corner.radiosity; }
-  if (!picture_ || !(light == shown_)) {
-    shown_ = light;
+  return light;
+}
+
+bool Artist::has_drawn(const radiosity::Mesh& mesh, const radiosity::Tone& tone) const {
+  return picture_ && light_of(mesh, tone) == shown_;
+}
+
+const radiosity::Picture* Artist::draw(const radiosity::Mesh& mesh, const radiosity::Frame& frame, const radiosity::Tone& tone,
+                                       const radiosity::Control& control) {
+  if (!has_drawn(mesh, tone)) {
+    shown_ = light_of(mesh, tone);
     if (options_.method == PictureMethod::mesh) {
       picture_ = radiosity::draw(mesh, view_, tone, 4, control.cancel);
     } else {
@@ -157,7 +165,7 @@ const radiosity::Picture* Artist::draw(const radiosity::Mesh& mesh, const radios
 }
 
 const radiosity::Picture* Artist::draw_mesh(const radiosity::Mesh& mesh, const radiosity::Tone& tone) {
-  constexpr unsigned samples = 2;  // along a pixel; of an interrupted run nobody wants to wait for more
+  constexpr unsigned samples = 2;  // along a pixel: few, so that an interrupted run ends soon
   shown_ = {};
   picture_ = radiosity::draw(mesh, view_, tone, samples);
   return &*picture_;
@@ -207,8 +215,10 @@ const radiosity::Picture* drawn(Artist& artist, const radiosity::Solution& solut
   radiosity::detail::Stopwatch watch(stages);
   PictureMethod method = options.method;
   const radiosity::Mesh& mesh = method == PictureMethod::mesh ? solution.shown() : solution.mesh;
-  const radiosity::Picture* picture = control.cancelled() ? nullptr : artist.draw(mesh, solution.frame, tone, control);
+  const bool begin = !control.cancelled() || artist.has_drawn(mesh, tone);
+  const radiosity::Picture* picture = begin ? artist.draw(mesh, solution.frame, tone, control) : nullptr;
   if (!picture) {
+    report.audit.picture_error.reset();  // of a picture that is not shown
     if (method == PictureMethod::gather) {
       report.audit.left_out.push_back({"the gathering of light for the picture, which shows the mesh", "the run was interrupted", ""});
     }
@@ -220,12 +230,16 @@ const radiosity::Picture* drawn(Artist& artist, const radiosity::Solution& solut
   if (std::string sentence = warning_of_dark_picture(*picture, artist.file(), artist.view()); !sentence.empty()) {
     report.audit.warnings.push_back(std::move(sentence));
   }
-  if (!report.audit.picture_error && options.solver.audit_points > 0 && !control.cancelled()) {
+  const bool wanted = !report.audit.picture_error && options.solver.audit_points > 0;
+  if (wanted && !control.cancelled()) {
     const radiosity::AuditGoal goal = radiosity::goal_to_know(report.audit, options.solver.audit_points, artist.worth());
     report.audit.picture_error = artist.audit(*picture, tone, goal, control, &report.picture_error_unknown);
     watch.lap("picture audit");
   }
   report.audit.interrupted = report.audit.interrupted || control.cancelled();
+  if (wanted && !report.audit.picture_error && report.audit.interrupted) {
+    report.audit.left_out.push_back({"the error of the picture", "the run was interrupted", ""});
+  }
   leave_out_others(stages);
   report.picture_time = stages.front();
   report.audit.stages.insert(report.audit.stages.end(), stages.begin() + 1, stages.end());

@@ -102,6 +102,8 @@ class Artist {
   // not drawn again.
   [[nodiscard]] const radiosity::Picture* draw(const radiosity::Mesh& mesh, const radiosity::Frame& frame, const radiosity::Tone& tone,
                                                const radiosity::Control& control);
+  // Was the last picture drawn of this light, so that draw() returns it at once?
+  [[nodiscard]] bool has_drawn(const radiosity::Mesh& mesh, const radiosity::Tone& tone) const;
   // Draws the triangles of this mesh, coarsely, which takes a moment. Valid until the next call.
   [[nodiscard]] const radiosity::Picture* draw_mesh(const radiosity::Mesh& mesh, const radiosity::Tone& tone);
   // Nothing if interrupted, or if the error cannot be measured; then `reason` says why.
@@ -118,6 +120,7 @@ class Artist {
     friend bool operator==(const Light&, const Light&) = default;
   };
 
+  [[nodiscard]] static Light light_of(const radiosity::Mesh& mesh, const radiosity::Tone& tone);
   // Null for a scene whose pictures cannot be audited.
   [[nodiscard]] const radiosity::PictureAudit* meter();
 

@@ -84,6 +84,11 @@ class LampMaker {
     // In the order of their places along a line that no building is parallel to: lamps close to each other are close in this order, too.
     const auto before = [](const ModelLight* a, const ModelLight* b) { return std::pair{along(*a), a} < std::pair{along(*b), b}; };
     std::sort(row.begin(), row.end(), before);
+    std::vector<glm::dvec3> to_suns;
+    for (const ModelLight& light : lights) {
+      if (shines(light) && is_sun(light)) { to_suns.push_back(-glm::normalize(light.direction)); }
+    }
+    move_sky_beyond(to_suns);
     for (const ModelLight& light : lights) {
       if (!shines(light)) {
         ++left_out_;
@@ -191,11 +196,9 @@ class LampMaker {
   }
 
   void sun(const ModelLight& light) {
-    constexpr double half_width = 0.25 * degree, diameters = 100.0;
+    constexpr double half_width = 0.25 * degree;
     const glm::dvec3 up = -glm::normalize(light.direction);
-    const double distance = diameters * std::max(lit_.diameter(), 1e-30);
-    move_sky_beyond(distance, up);
-    const double radius = distance * std::tan(half_width);
+    const double distance = distance_of_suns(), radius = distance * std::tan(half_width);
     const double share = radius * radius / (radius * radius + distance * distance);
     const double unit = light.absolute ? 1.0 : 100.0;
     if (take(raycast::Disk::make(lit_.centre() + distance * up, -up, radius).object, unit / share * light.intensity, "disk")) {
@@ -204,51 +207,74 @@ class LampMaker {
     }
   }
 
-  // What shines all over and reaches beyond all else: a dome over the scene, or a panel before a window. A lamp of a room does not.
+  [[nodiscard]] double distance_of_suns() const { return 100.0 * std::max(lit_.diameter(), 1e-30); }
+
+  // What shines all over, reaches beyond all else, and is large or far away: a dome over the scene, or a panel before a window. Not a lamp,
+  // in a room or above a floor.
   [[nodiscard]] bool is_sky(const radiosity::SceneObject& object) const {
     if (!radiosity::shines_all_over(file_.scene, object)) { return false; }
-    constexpr double beyond = 0.05;  // of the diameter of all else
-    const raycast::Box own = radiosity::placed_bounds(*object.shape, object.placement), near = lit_.grown(beyond * lit_.diameter());
-    return glm::any(glm::lessThan(own.lo, near.lo)) || glm::any(glm::greaterThan(own.hi, near.hi));
+    constexpr double beyond = 0.05, far = 0.25, large = 0.1;  // of the diameter of all else
+    const double size = lit_.diameter();
+    const raycast::Box own = radiosity::placed_bounds(*object.shape, object.placement), near = lit_.grown(beyond * size),
+                       around = lit_.grown(far * size);
+    const bool reaches_out = glm::any(glm::lessThan(own.lo, near.lo)) || glm::any(glm::greaterThan(own.hi, near.hi));
+    const bool outside = glm::any(glm::lessThan(own.hi, around.lo)) || glm::any(glm::greaterThan(own.lo, around.hi));
+    return reaches_out && (outside || own.diameter() >= large * size);
   }
 
   // A light from a direction is infinitely far away, and the sky of a file is not. Where the sky would hide a sun, it is enlarged from the
-  // middle of the scene until it lies beyond the sun: seen from there, it looks as before.
-  void move_sky_beyond(double distance, const glm::dvec3& up) {
+  // middle of the scene until it lies beyond all suns: seen from there, it looks as before.
+  void move_sky_beyond(const std::vector<glm::dvec3>& to_suns) {
     if (sky_.empty()) { return; }
-    constexpr double margin = 1.5;  // sky beyond the sun
-    const glm::dvec3 middle = lit_.centre(), half = 0.5 * lit_.size();
     double factor = 1.0;
-    const auto lies_at = [&](const glm::dvec3& place) {
-      const double height = glm::dot(place - middle, up);
-      if (height > 0.05 * lit_.diameter()) { factor = std::max(factor, margin * distance / height); }
-    };
-    // The box of what may hide the sun from any place meets the light on its way to the box of what is lit.
-    const raycast::SlabTest to_sun({middle, 2.0 * distance * up});
-    std::vector<raycast::PlacedObject> placed;
-    for (const std::uint32_t i : sky_) {
-      const radiosity::SceneObject& object = file_.scene.objects[i];
-      const raycast::Box box = radiosity::placed_bounds(*object.shape, object.placement);
-      double entry = 0.0;
-      if (!to_sun({box.lo - half, box.hi + half}, 0.0, 1.0, entry)) { continue; }
-      lies_at(box.centre());
-      placed.emplace_back(object.shape, object.placement);
-    }
-    if (placed.empty()) { return; }
-    const raycast::Scene sky(std::move(placed));
-    constexpr int steps = 5;  // of places along each side of the scene
-    for (int k = 0; k < steps * steps * steps; ++k) {
-      const glm::dvec3 share = (glm::dvec3(k % steps, k / steps % steps, k / steps / steps) + 0.5) / static_cast<double>(steps);
-      const raycast::Segment ray{lit_.lo + share * lit_.size(), 2.0 * distance * up};
-      if (const auto hit = sky.closest(ray)) { lies_at(ray.origin + hit->t * ray.direction); }
-    }
+    for (const glm::dvec3& up : to_suns) { factor = std::max(factor, factor_of_sky(up)); }
     if (factor == 1.0) { return; }
     for (const std::uint32_t i : sky_) {
       raycast::Placement& placement = file_.scene.objects[i].placement;
       placement.linear *= factor;
       placement.translation = lit_.centre() + factor * (placement.translation - lit_.centre());
     }
-    sky_moved_ *= factor;
+    sky_enlarged_ = factor;
+  }
+
+  // By how much the sky must be enlarged so that it does not hide the sun in this direction; 1 if it does not.
+  [[nodiscard]] double factor_of_sky(const glm::dvec3& up) const {
+    const double distance = distance_of_suns();
+    const glm::dvec3 middle = lit_.centre(), half = 0.5 * lit_.size();
+    double factor = 1.0;
+    const auto lies_at = [&](const glm::dvec3& place) {
+      constexpr double margin = 1.5, least = 0.05;  // the sky beyond the sun; its height, of the diameter of what is lit
+      const double height = glm::dot(place - middle, up);
+      if (height > least * lit_.diameter()) { factor = std::max(factor, margin * distance / height); }
+    };
+    // The box of what may hide the sun from any place meets the light on its way to the box of what is lit.
+    const raycast::SlabTest to_sun({middle, 2.0 * distance * up});
+    std::vector<raycast::PlacedObject> placed;
+    std::vector<glm::dvec3> centres;
+    for (const std::uint32_t i : sky_) {
+      const radiosity::SceneObject& object = file_.scene.objects[i];
+      const raycast::Box box = radiosity::placed_bounds(*object.shape, object.placement);
+      double entry = 0.0;
+      if (!to_sun({box.lo - half, box.hi + half}, 0.0, 1.0, entry)) { continue; }
+      centres.push_back(box.centre());
+      placed.emplace_back(object.shape, object.placement);
+    }
+    if (placed.empty()) { return factor; }
+    const raycast::Scene sky(std::move(placed));
+    constexpr int steps = 5;  // of places along each side of the scene
+    std::vector<bool> met(centres.size(), false);
+    for (int k = 0; k < steps * steps * steps; ++k) {
+      const glm::dvec3 share = (glm::dvec3(k % steps, k / steps % steps, k / steps / steps) + 0.5) / static_cast<double>(steps);
+      const raycast::Segment ray{lit_.lo + share * lit_.size(), 2.0 * distance * up};
+      const auto hit = sky.closest(ray);
+      if (!hit) { continue; }
+      met[hit->object] = true;
+      lies_at(ray.at(hit->t));
+    }
+    for (std::size_t i = 0; i < met.size(); ++i) {
+      if (!met[i]) { lies_at(centres[i]); }
+    }
+    return factor;
   }
 
   bool take(std::shared_ptr<const raycast::Object> shape, const radiosity::Color& exitance, const char* kind) {
@@ -284,10 +310,10 @@ class LampMaker {
       warn(counted(spots_, "spot light fades", "spot lights fade") +
            " from the inner to the outer cone of the file as a round lamp in a black cup does");
     }
-    if (sky_moved_ > 1.0) {
+    if (sky_enlarged_ > 1.0) {
       std::ostringstream factor;
       factor.precision(3);
-      factor << sky_moved_;
+      factor << sky_enlarged_;
       warn("the sky is enlarged by a factor of " + factor.str() +
            " from the middle of the scene, so that it does not hide the sun: seen from elsewhere, it lies in somewhat other directions");
     }
@@ -297,7 +323,7 @@ class LampMaker {
   raycast::Scene things_;
   raycast::Box lit_;                // of what is lit: without sky
   std::vector<std::uint32_t> sky_;  // objects
-  double size_ = 0.0, widest_ = 0.0, sky_moved_ = 1.0;
+  double size_ = 0.0, widest_ = 0.0, sky_enlarged_ = 1.0;
   std::optional<std::uint32_t> blind_;  // the material
   std::size_t balls_ = 0, spots_ = 0, suns_ = 0, left_out_ = 0, fade_otherwise_ = 0;
 };

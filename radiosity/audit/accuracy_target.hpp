@@ -5,8 +5,8 @@
 //
 // The target does not change the rounds; it only decides after which of them the run ends. A tighter target therefore ends at the same
 // solution as a looser one or at a finer one (or earlier, if its larger audit already shows that the target is met). An audit that
-// leaves the target open is enlarged before the solution is refined, if it then shows that the target is met in fewer rays than the next
-// round takes (AuditGoal::reserve): refining does not reduce the noise of the paths. A run gives up when a round needed more than
+// leaves the target open is enlarged before the solution is refined, if that is likely to show that the target is met for less than
+// refining costs (AuditGoal::reserve), because refining does not reduce the noise of the paths. A run gives up when a round needed more than
 // link_budget links, when the next round would bring the total work above work_budget, when the thresholds have reached their lower
 // limit, or when three rounds in a row did not improve on the best one; Audit::rounds_ended_by says which. It also ends when a round
 // would need more memory than Options::memory (default: memory_of_rounds); see Audit::shortage. All of this is counted, not timed, and

@@ -62,7 +62,8 @@ struct PathModel {
     const double variance = std::max(off * off, model.variance_at(paths) / (enough * met));
     const bool better = variance < 0.99 * best_variance || (variance < 1.01 * best_variance && enough * rays < best_rays);
     if (paths > first && !better) { continue; }
-    best = {static_cast<std::uint64_t>(std::max(fewest, steady(enough))), paths, false};
+    constexpr double most_points = 1e15;  // beyond any budget, and still an integer
+    best = {static_cast<std::uint64_t>(std::min(std::max(fewest, steady(enough)), most_points)), paths, false};
     best_variance = variance;
     best_rays = enough * rays;
   }
@@ -84,8 +85,8 @@ struct PathModel {
         best_effort(model, below / errors_to_show / reserve_of_variance, share, fewest, 0.0, std::numeric_limits<double>::infinity());
     return static_cast<double>(effort.points) * model.rays_at(effort.paths);
   };
-  // As long as noise hides the error nobody knows whether the target is met, whatever the mean is. Then a round that is much cheaper than
-  // the audit comes first; and one that costs as much, where the mean is above the target.
+  // While noise hides the error, the audit may cost four times what the next round takes if the mean is below the target, and as much as
+  // that round if it is above.
   constexpr double left_by_round = 0.3;  // of the mean square: a round leaves about 0.55 of the error
   const double much_cheaper = seen.ratio <= target ? 0.25 : 1.0;
   constexpr double least_gap = 0.15, likely_gap = 0.5;

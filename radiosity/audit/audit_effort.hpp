@@ -14,9 +14,9 @@
 //   a round towards a target     as much as the solution of that round was worth; for a picture, as long as drawing it took, besides
 //   confirming the target        twice as much, but for the solution at least rays_that_show; only if the pilot finds the target met. If a
 //                                second pilot then finds it missed, an audit of about the size of that pilot follows. More than that,
-//                                from a reserve that all rounds share, where it confirms the target in fewer rays than the next round
-//                                and its audit take: a finer solution moves the error away from the target, but the noise of the paths
-//                                stays, and hides the error as before
+//                                from a reserve that all rounds share, where that is likely to confirm the target for less than the next
+//                                round and its audit take, or, while noise hides the error, than four times that round: a finer solution
+//                                moves the error away from the target, but the noise of the paths stays, and hides the error as before
 //   a target missed in the end   as an audit without a target, once more from fresh points, for a picture; so a target is met by chance
 //                                about twice as often as the interval says
 // The price of a point is known from the pilot alone, to about a quarter where few points receive light. The budget is exceeded only by
@@ -49,8 +49,8 @@ struct AuditGoal {
   std::uint64_t rays_anyhow = 0;    // at least as many: a pilot may have met the few points that matter by chance, or missed them
   std::uint64_t rays_if_wide = 0;   // additional limit when the interval comes out wider than the error itself
   std::uint64_t rays_to_steer = 0;  // limit of the measurement that plans the next round; independent of `wanted`
-  // Rays that may be taken beyond rays_to_show, to confirm `wanted` where that takes fewer rays than to refine first; and how many rays
-  // the next round takes, as long as its solution and its picture.
+  // Rays that may be taken beyond rays_to_show, to confirm `wanted` where that is likely to take less than to refine first; and how many
+  // rays the next round takes, as long as its solution and its picture.
   std::uint64_t reserve = 0, rays_to_refine = 0;
 
   // The same goal when a ray costs `work` times as much (raycast::Scene::ray_work).

@@ -55,9 +55,8 @@ HALFLIGHT_INLINE std::optional<PictureAudit> PictureAudit::make(const Scene& sce
 
 HALFLIGHT_INLINE std::optional<PictureError> PictureAudit::measure(const ShownPicture& picture, const AuditGoal& goal, unsigned threads,
                                                                    std::uint64_t seed, const Control& control, std::string* reason) const {
-  std::uint64_t keys = 0;
+  std::uint64_t keys = 0, rays = 0;  // rays: including all pilots
   Measured measured;
-  std::uint64_t rays = 0;  // including all pilots
   bool reflects = false;   // has a pixel been found that counts?
   const double price = ray_work();
   const PixelDraw draw = draw_of(picture, goal.among_rays_of(price).rays / 8, rays, control);
@@ -76,9 +75,7 @@ HALFLIGHT_INLINE std::optional<PictureError> PictureAudit::measure(const ShownPi
     const std::uint64_t first = std::exchange(keys, keys + to.samples.size());
     parallel_in_batches(
         control, thread_count(threads), to.samples.size(), {512, 4},
-        [&](std::size_t i) {
-          if (!control.cancelled()) { to.samples[i] = measure_pixel(series, first + i, i, side, paths); }
-        },
+        [&](std::size_t i) { to.samples[i] = measure_pixel(series, first + i, i, side, paths); },
         [&](std::size_t done) { control.report("audit", static_cast<double>(done) / static_cast<double>(to.samples.size())); });
     for (const Sample& sample : to.samples) {
       rays += sample.rays;
@@ -92,18 +89,14 @@ HALFLIGHT_INLINE std::optional<PictureError> PictureAudit::measure(const ShownPi
   Measured steering;
   const std::uint64_t before = rays;
   if (own.rays_to_steer > 0 && !measure(steering_points, steering_paths(own), steering)) { return std::nullopt; }
-  if (!measure_to_goal<Measured>(
-          measure, [](const Measured& m) -> const ErrorSums& { return m.sums; }, own, measured)) {
-    return std::nullopt;
-  }
+  const auto sums = [](const Measured& m) -> const ErrorSums& { return m.sums; };
+  if (!measure_to_goal<Measured>(measure, sums, own, measured)) { return std::nullopt; }
   const std::optional<ErrorEstimate> error = measured.sums.estimate();
-  if (!error) {
-    if (reason) {
-      *reason = reflects ? "hardly any path from its pixels meets light that could be compared with it"
-                         : "it shows no surface that does not shine";
-    }
-    return std::nullopt;
+  if (!error && reason) {
+    *reason =
+        reflects ? "hardly any path from its pixels meets light that could be compared with it" : "it shows no surface that does not shine";
   }
+  if (!error) { return std::nullopt; }
   const std::uint64_t rays_of_goal = rays - before - steering.rays;
   PictureError result;
   result.error = *error;

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: MIT
 // The sky of a file does not hide its suns.
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <sstream>
 #include <string>
 
 #include <glm/vec3.hpp>
+
+#include <radiosity/scene/bounds.hpp>
+#include <radiosity/scene/scene.hpp>
 
 #include "apps/scene_file.hpp"
 #include "catch.hpp"
@@ -65,5 +69,23 @@ TEST_CASE("a directional light shines through the sky of its file") {
       CAPTURE(p.x, p.y);
       CHECK(floor.irradiance(p) == test::Approx(100.0 * -d.z).epsilon(0.02));
     }
+  }
+}
+
+// Also beside a dome, which is moved.
+TEST_CASE("a lamp above a floor is no sky, though it hides the sun") {
+  const std::string lamp =
+      "Transform { translation 0.3 2.5 0.2 children Shape { appearance Appearance { material Material { emissiveColor 1 1 1 } } geometry "
+      "Box { "
+      "size 0.2 0.2 0.2 } } } ";
+  const std::string floor =
+      "Shape { geometry IndexedFaceSet { coord Coordinate { point [ -6 0 -6, -6 0 6, 6 0 6, 6 0 -6 ] } coordIndex [ 0, 1, 2, 3, -1 ] } } ";
+  for (const std::string& sky : {std::string(), dome(true, 16, 4)}) {
+    const apps::SceneFile file = models::scene("a.wrl", "#VRML V2.0 utf8\nDirectionalLight { direction 0.1 -1 0.2 } " + floor + lamp + sky);
+    CHECK(models::noted(file.warnings, "the sky is enlarged") == !sky.empty());
+    const auto is_lamp = [](const radiosity::SceneObject& object) {
+      return std::abs(radiosity::placed_bounds(*object.shape, object.placement).diameter() - 0.2 * std::sqrt(3.0)) < 1e-6;
+    };
+    CHECK(std::count_if(file.scene.objects.begin(), file.scene.objects.end(), is_lamp) == 1);
   }
 }

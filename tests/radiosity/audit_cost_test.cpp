@@ -193,7 +193,8 @@ TEST_CASE("an audit takes from the reserve what shows a target that noise hides,
     CHECK(radiosity::used_of_reserve(goal, dear.rays) <= goal.reserve + least);
   }
   CAPTURE(shown[0], shown[1], shown[2]);
-  // About 22 % are shown with the reserve and 2 % without, so 40 of 200 more, with a standard deviation of 6. The bound is four of these off.
+  // About 22 % are shown with the reserve and 2 % without, so 40 of 200 more, with a standard deviation of 6. The bound is four of these
+  // off.
   CHECK(shown[2] > shown[0] + 16);
   CHECK(shown[2] > shown[1] + 16);
 }

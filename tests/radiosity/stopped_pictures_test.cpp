@@ -7,8 +7,10 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <random>
 #include <utility>
+#include <vector>
 
 #include <brep/builder_input.hpp>
 

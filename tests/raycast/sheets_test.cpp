@@ -58,8 +58,8 @@ TEST_CASE("of faces of one open mesh that lie back to back a ray meets the one t
   }
 }
 
-// The two sides of a sheet may be two meshes. The fast search is less accurate the smaller the sheet is in the scene, and asks for the exact
-// hits of a mesh again and again; these took the place of those of the other mesh.
+// The two sides of a sheet may be two meshes. The fast search is less accurate the smaller the sheet is in the scene, and asks for the
+// exact hits of a mesh again and again; these took the place of those of the other mesh.
 TEST_CASE("of two sheets that lie back to back a ray meets the one that shows its front, however small they are in the scene") {
   SEEDED(random);
   for (int turn = 0; turn < 40; ++turn) {
