@@ -57,6 +57,13 @@ struct FileBeside {
   std::string path, bytes;
 };
 
+// The sky of a file that would hide its suns is enlarged from a point until it lies beyond them; exported meshes have it as the file does.
+struct EnlargedSky {
+  std::vector<std::uint32_t> objects;
+  glm::dvec3 centre{0.0};
+  double factor = 1.0;
+};
+
 struct SceneFile {
   radiosity::Scene scene;
   std::vector<ObjectOrigin> origins;  // by index of scene.objects
@@ -64,7 +71,8 @@ struct SceneFile {
   std::vector<std::string> notes;     // about files of other formats: what was changed or read differently
   std::vector<std::string> warnings;  // about such files: what shines otherwise than the file says
   std::vector<std::uint32_t> suns;    // objects made for directional lights: far away, so exported meshes leave them out
-  std::string text;                   // the file itself, for an output that contains it
+  EnlargedSky sky;
+  std::string text;  // the file itself, for an output that contains it
   std::vector<FileBeside> beside;
   std::shared_ptr<GivenPolygons> given;  // only for files of other formats, else null
 };

@@ -52,8 +52,9 @@ struct Scene::Asker {
   float operator()(unsigned lane, std::uint32_t object) const {
     Search& s = searches[lane];
     if (!s.is_asked(object)) {
+      const double before = s.nearest.limit;
       scene.approach(Line(s.ray), s.source, object, s.nearest);
-      s.set_asked(object);
+      s.set_asked(object, s.nearest.limit > before);
     }
     return static_cast<float>(std::min((s.nearest.limit - s.t0) / (s.t1 - s.t0), 1.0)) * limit_up + eps_limit;
   }

@@ -168,7 +168,9 @@ class Scene {
     std::array<std::uint32_t, 4> asked{no_object, no_object, no_object, no_object};
 
     [[nodiscard]] bool is_asked(std::uint32_t object) const { return std::find(asked.begin(), asked.end(), object) != asked.end(); }
-    void set_asked(std::uint32_t object) {
+    // `farther`: the limit rose, so that objects that were asked before may be met between the old limit and the new one.
+    void set_asked(std::uint32_t object, bool farther) {
+      if (farther) { asked.fill(no_object); }
       std::rotate(asked.begin(), asked.end() - 1, asked.end());
       asked.front() = object;
     }

@@ -219,9 +219,9 @@ const radiosity::Picture* drawn(Artist& artist, const radiosity::Solution& solut
   const radiosity::Picture* picture = begin ? artist.draw(mesh, solution.frame, tone, control) : nullptr;
   if (!picture) {
     report.audit.picture_error.reset();  // of a picture that is not shown
-    if (method == PictureMethod::gather) {
-      report.audit.left_out.push_back({"the gathering of light for the picture, which shows the mesh", "the run was interrupted", ""});
-    }
+    report.audit.left_out.push_back({method == PictureMethod::gather ? "the gathering of light for the picture, which shows the mesh"
+                                                                     : "12 of the 16 samples of each pixel of the picture",
+                                     "the run was interrupted", ""});
     method = PictureMethod::mesh;
     picture = artist.draw_mesh(solution.shown(), tone);
   }
@@ -278,7 +278,8 @@ std::vector<RenderOutput> encode(Artist& artist, const radiosity::Solution& solu
     } else {
       bytes = options.onto_input && exported
                   ? to_ply(*exported, tone)
-                  : to_ply(in_depth_order(file, solution, without_suns(file, solution.shown())), radiosity::surfaces(file.scene), tone);
+                  : to_ply(with_sky_of_file(file, in_depth_order(file, solution, without_suns(file, solution.shown()))),
+                           radiosity::surfaces(file.scene), tone);
     }
     outputs.push_back({path, std::move(bytes)});
     report.files.push_back(path);

@@ -116,4 +116,19 @@ radiosity::Mesh without_suns(const SceneFile& file, const radiosity::Mesh& mesh)
   return out;
 }
 
+radiosity::Mesh with_sky_of_file(const SceneFile& file, radiosity::Mesh mesh) {
+  const EnlargedSky& sky = file.sky;
+  if (sky.factor == 1.0) { return mesh; }
+  const std::vector<radiosity::InputSurface> inputs = radiosity::surfaces(file.scene);
+  std::vector<bool> of_sky(mesh.positions.size(), false);
+  for (const radiosity::MeshFace& face : mesh.faces) {
+    if (std::find(sky.objects.begin(), sky.objects.end(), inputs[face.surface].object) == sky.objects.end()) { continue; }
+    for (std::uint32_t k = 0; k < face.corner_count; ++k) { of_sky[mesh.corners[face.first_corner + k].vertex] = true; }
+  }
+  for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+    if (of_sky[v]) { mesh.positions[v] = sky.centre + (mesh.positions[v] - sky.centre) / sky.factor; }
+  }
+  return mesh;
+}
+
 }  // namespace apps

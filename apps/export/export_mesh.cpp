@@ -39,6 +39,7 @@ ExportMesh solution_mesh(const SceneFile& file, const radiosity::Solution& solut
   const radiosity::Mesh mesh = in_depth_order(file, solution, in_place);
   const std::vector<radiosity::InputSurface> inputs = radiosity::surfaces(file.scene);
   const std::vector<raycast::PlacedObject> objects = radiosity::placed_objects(file.scene);
+  const radiosity::Mesh shown = with_sky_of_file(file, mesh);  // the normals are those of the objects where they are solved
   ExportMesh out;
   out.cameras = file.cameras;
   // By position: the newest of its vertices, and a chain to the others.
@@ -59,7 +60,7 @@ ExportMesh solution_mesh(const SceneFile& file, const radiosity::Solution& solut
     for (std::uint32_t k = 0; k < face.corner_count; ++k) {
       const radiosity::MeshCorner& corner = mesh.corners[face.first_corner + k];
       const glm::dvec3 normal = unit(radiosity::corner_normal(objects[input.object], input.sheet, outline[k], middle), flat);
-      const ExportVertex vertex{outline[k], normal, corner.radiosity};
+      const ExportVertex vertex{shown.positions[corner.vertex], normal, corner.radiosity};
       std::uint32_t v = newest[corner.vertex];
       while (v != none && v >= out.groups.back().first_vertex &&
              (out.vertices[v].position != vertex.position || out.vertices[v].normal != vertex.normal ||

@@ -56,7 +56,7 @@ struct ExportMesh {
 };
 
 // A mesh of the solution, in depth order (in_depth_order): one group per object, one face per leaf, and at each position one vertex per
-// normal and colour.
+// normal and colour; the sky is as large as in the file.
 [[nodiscard]] ExportMesh solution_mesh(const SceneFile& file, const radiosity::Solution& solution, const radiosity::Mesh& mesh);
 
 // The user's polygons and vertices, all of them, in the order of the file; the radiosity of a vertex is the mean of its corners. Nothing
@@ -94,6 +94,9 @@ extern const ExportFormat glb, obj;  // each defined in a file of this folder
 // The mesh without the suns that were made for directional lights. They are so far away that other programs, which show all of a mesh,
 // would show a dot.
 [[nodiscard]] radiosity::Mesh without_suns(const SceneFile& file, const radiosity::Mesh& mesh);
+
+// The mesh with the sky as large as in the file (EnlargedSky).
+[[nodiscard]] radiosity::Mesh with_sky_of_file(const SceneFile& file, radiosity::Mesh mesh);
 
 // --- PLY (ply.cpp)
 

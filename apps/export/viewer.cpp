@@ -35,7 +35,7 @@ struct Arrays {
 
 std::string viewer_page(const SceneFile& file, const radiosity::Solution& solution, const radiosity::Camera& camera, double exposure,
                         const std::string& title, const std::string& sentence) {
-  const radiosity::Mesh mesh = without_suns(file, solution.shown());
+  const radiosity::Mesh mesh = with_sky_of_file(file, without_suns(file, solution.shown()));
   raycast::Box box;
   for (const glm::dvec3& p : mesh.positions) { box.extend(p); }
   const glm::dvec3 centre = box.empty() ? glm::dvec3(0.0) : box.centre();

@@ -70,7 +70,7 @@ class LampMaker {
   explicit LampMaker(SceneFile& file)
       : file_(file), things_(radiosity::placed_objects(file.scene)), lit_(radiosity::lit_bounds(file.scene)), size_(things_.diameter()) {
     for (std::uint32_t i = 0; i < file.scene.objects.size(); ++i) {
-      if (is_sky(file.scene.objects[i])) { sky_.push_back(i); }
+      if (is_sky(file.scene.objects[i])) { file.sky.objects.push_back(i); }
     }
   }
 
@@ -225,16 +225,18 @@ class LampMaker {
   // A light from a direction is infinitely far away, and the sky of a file is not. Where the sky would hide a sun, it is enlarged from the
   // middle of the scene until it lies beyond all suns: seen from there, it looks as before.
   void move_sky_beyond(const std::vector<glm::dvec3>& to_suns) {
-    if (sky_.empty()) { return; }
+    EnlargedSky& sky = file_.sky;
+    if (sky.objects.empty()) { return; }
     double factor = 1.0;
     for (const glm::dvec3& up : to_suns) { factor = std::max(factor, factor_of_sky(up)); }
+    sky.centre = lit_.centre();
+    sky.factor = factor;
     if (factor == 1.0) { return; }
-    for (const std::uint32_t i : sky_) {
+    for (const std::uint32_t i : sky.objects) {
       raycast::Placement& placement = file_.scene.objects[i].placement;
       placement.linear *= factor;
-      placement.translation = lit_.centre() + factor * (placement.translation - lit_.centre());
+      placement.translation = sky.centre + factor * (placement.translation - sky.centre);
     }
-    sky_enlarged_ = factor;
   }
 
   // By how much the sky must be enlarged so that it does not hide the sun in this direction; 1 if it does not.
@@ -251,7 +253,7 @@ class LampMaker {
     const raycast::SlabTest to_sun({middle, 2.0 * distance * up});
     std::vector<raycast::PlacedObject> placed;
     std::vector<glm::dvec3> centres;
-    for (const std::uint32_t i : sky_) {
+    for (const std::uint32_t i : file_.sky.objects) {
       const radiosity::SceneObject& object = file_.scene.objects[i];
       const raycast::Box box = radiosity::placed_bounds(*object.shape, object.placement);
       double entry = 0.0;
@@ -310,10 +312,10 @@ class LampMaker {
       warn(counted(spots_, "spot light fades", "spot lights fade") +
            " from the inner to the outer cone of the file as a round lamp in a black cup does");
     }
-    if (sky_enlarged_ > 1.0) {
+    if (file_.sky.factor > 1.0) {
       std::ostringstream factor;
       factor.precision(3);
-      factor << sky_enlarged_;
+      factor << file_.sky.factor;
       warn("the sky is enlarged by a factor of " + factor.str() +
            " from the middle of the scene, so that it does not hide the sun: seen from elsewhere, it lies in somewhat other directions");
     }
@@ -321,9 +323,8 @@ class LampMaker {
 
   SceneFile& file_;
   raycast::Scene things_;
-  raycast::Box lit_;                // of what is lit: without sky
-  std::vector<std::uint32_t> sky_;  // objects
-  double size_ = 0.0, widest_ = 0.0, sky_enlarged_ = 1.0;
+  raycast::Box lit_;  // of what is lit: without sky
+  double size_ = 0.0, widest_ = 0.0;
   std::optional<std::uint32_t> blind_;  // the material
   std::size_t balls_ = 0, spots_ = 0, suns_ = 0, left_out_ = 0, fade_otherwise_ = 0;
 };

@@ -16,8 +16,13 @@ namespace radiosity {
 namespace detail {
 
 // An audit that shall show a mean square below the target takes so much that the gap between them is this many standard errors. The
-// interval ends two above the mean; one more, because chance moves the mean. A reserve, because a pilot mostly underestimates the variance.
-inline constexpr double reserve_of_variance = 1.1, errors_to_show = 3.0;
+// interval ends two above the mean; one more, because chance moves the mean. The margin, because a pilot mostly underestimates the
+// variance.
+inline constexpr double variance_margin = 1.1, errors_to_show = 3.0;
+
+// A mean that is closer to the target than this fraction may be so by chance. The target then stays undecided, because a finer solution
+// tells more for the same rays.
+inline constexpr double least_gap = 0.15;
 
 // The standard error of the mean that the goal requires, estimated from a pilot in which `met` points count. Where noise hides the error,
 // the standard error of the pilot takes its place.
@@ -26,7 +31,7 @@ inline constexpr double reserve_of_variance = 1.1, errors_to_show = 3.0;
   const double doubt = std::sqrt(seen.variance / met);
   return (goal.wanted ? std::max(std::abs(target - std::max(seen.ratio, 0.0)), 0.1 * target) / errors_to_show
                       : std::max(0.25 * std::max(seen.ratio, doubt), 0.5 * negligible_error * negligible_error)) /
-         reserve_of_variance;
+         variance_margin;
 }
 
 // Predicts the effect of more or fewer paths at each point. The noise is that of a product of two estimates, so its variance falls at
@@ -82,14 +87,14 @@ struct PathModel {
   // To show an error that is so far below the target.
   const auto rays_to_show = [&](double below) {
     const Effort effort =
-        best_effort(model, below / errors_to_show / reserve_of_variance, share, fewest, 0.0, std::numeric_limits<double>::infinity());
+        best_effort(model, below / errors_to_show / variance_margin, share, fewest, 0.0, std::numeric_limits<double>::infinity());
     return static_cast<double>(effort.points) * model.rays_at(effort.paths);
   };
   // While noise hides the error, the audit may cost four times what the next round takes if the mean is below the target, and as much as
   // that round if it is above.
   constexpr double left_by_round = 0.3;  // of the mean square: a round leaves about 0.55 of the error
   const double much_cheaper = seen.ratio <= target ? 0.25 : 1.0;
-  constexpr double least_gap = 0.15, likely_gap = 0.5;
+  constexpr double likely_gap = 0.5;
   const bool known = doubt <= 0.5 * std::abs(gap);
   if (known && gap < least_gap * target) { return without; }
   const double now = rays_to_show(known ? gap : std::max(gap, likely_gap * target));
@@ -144,16 +149,14 @@ HALFLIGHT_INLINE std::optional<Effort> further_effort(const AuditGoal& goal, con
   const auto points = static_cast<double>(audit.points), met = static_cast<double>(sums.square.size());
   const double doubt = std::sqrt(seen->variance / met), target = goal.wanted ? *goal.wanted * *goal.wanted : 0.0;
   // The interval is as wide as the error itself when the standard error is half of the mean square; aim at less, as a reserve for chance.
-  // The same holds for a target, because the interval ends two standard errors above the mean. A mean that is closer to the target than
-  // the fraction `least_gap` may be so by chance; the target then stays undecided, because a finer solution tells more for the same rays.
-  constexpr double least_gap = 0.15;
+  // The same holds for a target, because the interval ends two standard errors above the mean.
   const PathModel model{seen->variance, std::max(seen->noise_share, 1.0 / 32.0), static_cast<double>(rays_of_audit) / points, audit.paths};
   double off = 0.25 * std::max(seen->ratio, doubt), most = 0.5 * (std::max(seen->ratio, 0.0) + doubt);
   auto left = goal.rays_if_wide > 0 ? static_cast<double>(goal.rays + goal.rays_if_wide) - static_cast<double>(spent) : 0.0;
   if (goal.wanted) {
     if (error->within(*goal.wanted) || seen->ratio > target) { return std::nullopt; }
     left = rays_allowed(goal, *seen, model, met, met / points, points / 2.0, static_cast<double>(spent)) - static_cast<double>(spent);
-    off = std::max(target - std::max(seen->ratio, 0.0), least_gap * target) / 3.0;
+    off = std::max(target - std::max(seen->ratio, 0.0), least_gap * target) / errors_to_show;
     most = (target - std::max(seen->ratio, 0.0)) / 2.0;
   } else if (!is_wide(*error)) {
     return std::nullopt;

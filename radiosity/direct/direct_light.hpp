@@ -30,7 +30,8 @@ namespace radiosity {
 namespace detail {
 
 // Heights below this count as zero, relative to the diameter of what does not emit: a thousandth of what is visible in a picture or on a
-// leaf. Beside a sun a million times as far away as the rest is large, rounding sets the limit, `rounding_slack`, in a scene of size 1 to 2.
+// leaf. Beside a sun a million times as far away as the rest is large, rounding sets the limit, `rounding_slack`, in a scene of size 1 to
+// 2.
 inline constexpr double least_slack = 1e-9, rounding_slack = 1e-15;
 
 }  // namespace detail

@@ -3,14 +3,18 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include <glm/vec3.hpp>
 
+#include <radiosity/radiosity.hpp>
 #include <radiosity/scene/bounds.hpp>
 #include <radiosity/scene/scene.hpp>
 
+#include "apps/export/export_mesh.hpp"
 #include "apps/scene_file.hpp"
 #include "catch.hpp"
 #include "lit_floor.hpp"
@@ -87,5 +91,36 @@ TEST_CASE("a lamp above a floor is no sky, though it hides the sun") {
       return std::abs(radiosity::placed_bounds(*object.shape, object.placement).diameter() - 0.2 * std::sqrt(3.0)) < 1e-6;
     };
     CHECK(std::count_if(file.scene.objects.begin(), file.scene.objects.end(), is_lamp) == 1);
+  }
+}
+
+// Viewers show all of a mesh: a sky that is enlarged beyond the suns would make a dot of the rest.
+TEST_CASE("exported meshes have the sky as large as the file, whatever a sun makes of it") {
+  Dice dice;
+  INFO("seed " << dice.seed);
+  for (int round = 0; round < 3; ++round) {
+    const glm::dvec3 d = dice.downwards(0.8);
+    std::ostringstream text;
+    text.precision(17);
+    text << "#VRML V2.0 utf8\nDirectionalLight { direction " << d.x << ' ' << d.z << ' ' << -d.y
+         << " } Shape { geometry IndexedFaceSet { coord Coordinate { point [ -3 0 -3, -3 0 3, 3 0 3, 3 0 -3 ] } coordIndex "
+            "[ 0, 1, 2, 3, -1 ] } } "
+         << dome(true, 8, 3 + round);
+    const apps::SceneFile file = models::scene("a.wrl", text.str());
+    REQUIRE(file.sky.factor > 1.0);
+    const radiosity::Outcome outcome = radiosity::solve(file.scene, {.epsilon = 0.5, .min_area = 0.01, .audit_points = 0});
+    REQUIRE(outcome.solution);
+    const radiosity::Mesh mesh = apps::without_suns(file, outcome.solution->mesh);
+    // The corners of the dome lie at its radius, all else within it; each may be moved by 1e-4 of the size of what is lit.
+    const auto distance = [](const glm::dvec3& p) { return glm::length(p); };
+    double farthest = 0.0;
+    for (const apps::ExportVertex& vertex : apps::solution_mesh(file, *outcome.solution, mesh).vertices) {
+      farthest = std::max(farthest, distance(vertex.position));
+    }
+    CHECK(farthest == test::Approx(10.0).epsilon(1e-3));
+    const std::vector<glm::dvec3> places = apps::with_sky_of_file(file, mesh).positions;
+    CHECK(std::transform_reduce(
+              places.begin(), places.end(), 0.0, [](double a, double b) { return std::max(a, b); }, distance) ==
+          test::Approx(10.0).epsilon(1e-3));
   }
 }

@@ -92,7 +92,7 @@ double off(const Scene& scene, double epsilon, double min_area, radiosity::Indir
                                    .min_area = min_area,
                                    .indirect = indirect,
                                    .reconstruction = radiosity::Reconstruction::none,
-                                   .audit_points = 400,
+                                   .audit_points = 1600,
                                    .threads = 1,
                                    .seed = seed};
   const radiosity::Audit audit = scenes::solved(scene, options).audit;

@@ -75,7 +75,7 @@ TEST_CASE("long faces: parts are at most twice as long as wide, and as many as t
     // Walls are at most 1.5 wide, so of a length above 12 all of them are longer than 8 : 1.
     for (std::size_t k = 0; k < areas.size() && length > 12.0; ++k) {
       CAPTURE(areas[k] / all);
-      if (areas[k] > std::max(0.01, 4.0 * min_area) * all) { CHECK(proportions[k] <= 2.0 * (1.0 + 1e-9)); }
+      if (areas[k] > 4.0 * min_area * all) { CHECK(proportions[k] <= 2.0 * (1.0 + 1e-9)); }
     }
   }
 }
