@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MIT
+#include "apps/intake/added_light.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include <glm/vec3.hpp>
+
+#include <raycast/objects/box.hpp>
+#include <raycast/objects/polygon.hpp>
+#include <raycast/transform.hpp>
+
+#include <radiosity/camera/view.hpp>
+#include <radiosity/scene/bounds.hpp>
+#include <radiosity/scene/scene.hpp>
+
+#include "apps/intake/light_views.hpp"
+#include "apps/text.hpp"
+#include "apps/words.hpp"
+
+namespace apps {
+
+void AddedLight::look_for_light() {
+  constexpr std::size_t most_cameras = 16;
+  const LightViews views(file_.scene);
+  std::vector<std::string> dark;
+  for (std::size_t i = 0; i < std::min(most_cameras, file_.cameras.size()); ++i) {
+    if (views.lit_share(file_.cameras[i]) < LightViews::tol_dark) { dark.push_back("'" + file_.cameras[i].name + "'"); }
+    if (file_.cameras[i].name == "inside") { return; }
+  }
+  double enough = LightViews::tol_dark;
+  if (file_.cameras.empty()) {
+    const double from_outside = views.lit_share(radiosity::automatic_camera(file_.scene));
+    if (from_outside >= LightViews::little_light) { return; }
+    if (from_outside >= LightViews::tol_dark) { enough = LightViews::much_light; }
+  } else if (dark.empty()) {
+    return;
+  }
+  auto camera = views.inside();
+  if (camera && views.lit_share(*camera) < enough) { camera.reset(); }
+  if (file_.cameras.empty()) {
+    if (camera) { note("from outside little is seen of its light: the camera stands in the room of a lamp"); }
+  } else {
+    note((dark.size() == 1 ? "camera " + dark[0] + " sees" : counted(dark.size(), "camera") + " see") +
+         " next to nothing that a lamp shines on" + (camera && !eye_chosen_ ? "; --camera inside stands in the room of a lamp" : ""));
+  }
+  if (camera) { file_.cameras.push_back(std::move(*camera)); }
+}
+
+// The bounds of the closed rooms that can be seen: from outside, like a doll's house, unless they are within walls with a thickness;
+// else from inside, by a camera of the file, or by an added one if there is none.
+std::vector<raycast::Box> AddedLight::closed_rooms() const {
+  std::vector<raycast::Box> rooms;
+  const auto seen = [&](const radiosity::Room& room) {
+    return !room.within_walls || file_.cameras.empty() ||
+           std::any_of(file_.cameras.begin(), file_.cameras.end(), [&](const radiosity::Camera& c) { return room.bounds.contains(c.eye); });
+  };
+  const bool any = std::any_of(rooms_.begin(), rooms_.end(), seen);
+  for (const radiosity::Room& room : rooms_) {
+    if (any) { rooms.push_back(room.bounds); }
+  }
+  return rooms;
+}
+
+// Most rooms of other programs are no closed shells: each wall is an object, and windows and doors are open. Nothing if the first camera,
+// which draws the picture, stands in none.
+std::vector<raycast::Box> AddedLight::rooms_of_cameras() const {
+  std::vector<raycast::Box> rooms;
+  const LightViews views(file_.scene);
+  for (const radiosity::Camera& camera : file_.cameras) {
+    const auto around = [&](const raycast::Box& room) { return room.contains(camera.eye); };
+    if (std::any_of(rooms.begin(), rooms.end(), around)) { continue; }
+    const std::optional<raycast::Box> room = views.room_around(camera.eye);
+    if (room) { rooms.push_back(*room); }
+    if (rooms.empty()) { break; }
+  }
+  return rooms;
+}
+
+bool AddedLight::add_room_lamps(const std::vector<raycast::Box>& rooms) {
+  constexpr std::size_t most_lamps = 64;
+  const LightViews views(file_.scene);
+  std::vector<std::shared_ptr<const raycast::Object>> lamps;
+  for (std::size_t i = 0; i < std::min(most_lamps, rooms.size()); ++i) {
+    if (auto lamp = views.ceiling_lamp(rooms[i])) { lamps.push_back(std::move(lamp)); }
+  }
+  if (lamps.empty()) { return false; }
+  const auto material = static_cast<std::uint32_t>(file_.scene.materials.size());
+  file_.scene.materials.push_back({"room lamp", radiosity::Color(0.0), radiosity::Color(100.0)});
+  for (auto& lamp : lamps) {
+    file_.scene.objects.push_back({"room lamp", std::move(lamp), {}, {material}});
+    file_.origins.push_back({"polygon", {}});
+  }
+  note((rooms.size() == 1 ? std::string("nothing shines in this closed room: a lamp of 100 W/m2 hangs under its ceiling")
+                          : "nothing shines in these " + std::to_string(rooms.size()) +
+                                " closed rooms: lamps of 100 W/m2 hang under the ceilings of " + std::to_string(lamps.size())) +
+       "; to have lamps of its own: " + advice_);
+  return true;
+}
+
+bool AddedLight::light_rooms_without_sun(std::vector<std::string>& faults) {
+  const std::vector<raycast::Box> closed = closed_rooms(), rooms = closed.empty() ? rooms_of_cameras() : closed;
+  if (rooms.empty()) { return true; }
+  const LightViews views(file_.scene);
+  const auto lit = [&](const radiosity::Camera& camera) { return views.lit_share(camera) >= LightViews::tol_dark; };
+  const bool seen =
+      file_.cameras.empty() ? lit(radiosity::automatic_camera(file_.scene)) : std::any_of(file_.cameras.begin(), file_.cameras.end(), lit);
+  return seen || add_room_lamps(rooms) || closed.empty() || refused(faults);
+}
+
+bool AddedLight::light_model(std::vector<std::string>& faults) {
+  const std::vector<raycast::Box> closed = closed_rooms();
+  if (!closed.empty()) { return add_room_lamps(closed) || refused(faults); }
+  if (!add_room_lamps(rooms_of_cameras())) { add_studio(); }
+  return true;
+}
+
+bool AddedLight::refused(std::vector<std::string>& faults) const {
+  faults.push_back("nothing shines in this closed room; say which material does: " + advice_);
+  return false;
+}
+
+void AddedLight::add_studio() {
+  if (file_.cameras.empty()) { file_.cameras.push_back(radiosity::automatic_camera(file_.scene)); }
+  const raycast::Box bounds = radiosity::scene_bounds(file_.scene);
+  const double size = bounds.diameter();
+  constexpr double flat = 0.01;  // a model flatter than this fraction of its size is put above the floor, to be distinguished from it
+  const double gap = bounds.hi.z - bounds.lo.z < flat * size ? 0.1 * size : 0.0;
+  const glm::dvec3 middle{bounds.centre().x, bounds.centre().y, bounds.lo.z - gap};
+  const glm::dvec3 reach{1.5 * size, 1.5 * size, 0.0}, top{0.0, 0.0, 2.0 * size};
+  std::vector<glm::dvec3> lamp;  // faces down
+  for (const glm::dvec3 corner : {glm::dvec3(-1, -1, 0), glm::dvec3(-1, 1, 0), glm::dvec3(1, 1, 0), glm::dvec3(1, -1, 0)}) {
+    lamp.push_back(middle + top + 0.4 * size * corner);
+  }
+  const auto material = static_cast<std::uint32_t>(file_.scene.materials.size());
+  file_.scene.materials.push_back({"studio", radiosity::Color(0.5), radiosity::Color(0.0)});
+  file_.scene.materials.push_back({"studio lamp", radiosity::Color(0.0), radiosity::Color(100.0)});
+  raycast::Placement inside;
+  inside.inside = true;
+  // The studio comes before the model, so that objects on the floor cover it.
+  auto& objects = file_.scene.objects;
+  objects.insert(objects.begin(), {"studio", raycast::BoxObject::make(middle - reach, middle + reach + top).object, inside, {material}});
+  if (file_.given) { file_.given->first_object = 1; }
+  objects.push_back({"studio lamp", raycast::Polygon::make(std::move(lamp)).object, {}, {material + 1}});
+  file_.origins.insert(file_.origins.begin(), {"box", {}});
+  file_.origins.push_back({"polygon", {}});
+  note("nothing shines in this file: put into a studio with a lamp of 100 W/m2 above it; to have lamps of its own: " + advice_);
+}
+
+}  // namespace apps

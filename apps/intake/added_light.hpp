@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Gives a model of another program light, if it has none, and a camera that sees its light, if its own do not.
+
+#include <string>
+#include <vector>
+
+#include <raycast/box.hpp>
+
+#include <radiosity/intake/polygons.hpp>
+
+#include "apps/scene_file.hpp"
+
+namespace apps {
+
+// Every decision is a sentence in SceneFile::notes. The scene is in metres, z up.
+class AddedLight {
+ public:
+  // `rooms`: closed shells that are seen from inside. `advice`: how to name lamps of the file's own. `eye_chosen`: is the first camera the
+  // user's?
+  AddedLight(SceneFile& file, const std::vector<radiosity::Room>& rooms, std::string advice, bool eye_chosen)
+      : file_(file), rooms_(rooms), advice_(std::move(advice)), eye_chosen_(eye_chosen) {}
+
+  // A model without any lamp gets lamps under the ceilings of its closed rooms, or of the rooms that its cameras stand in, because light
+  // from outside would not reach these. If it has none, it is put into a studio, so that it can be seen: floor, walls, and a lamp in the
+  // ceiling. Returns false, and a fault, if no lamp fits into its closed rooms.
+  bool light_model(std::vector<std::string>& faults);
+
+  // Such rooms get lamps, too, if a sun lights nothing that is seen.
+  bool light_rooms_without_sun(std::vector<std::string>& faults);
+
+  // If cameras see almost no lit surface, adds one inside a lit room.
+  void look_for_light();
+
+ private:
+  [[nodiscard]] std::vector<raycast::Box> closed_rooms() const;
+  [[nodiscard]] std::vector<raycast::Box> rooms_of_cameras() const;
+  bool add_room_lamps(const std::vector<raycast::Box>& rooms);  // false if no lamp fits into them
+  bool refused(std::vector<std::string>& faults) const;
+  void add_studio();
+  void note(std::string sentence) { file_.notes.push_back(std::move(sentence)); }
+
+  SceneFile& file_;
+  const std::vector<radiosity::Room>& rooms_;
+  std::string advice_;
+  bool eye_chosen_;
+};
+
+}  // namespace apps
