@@ -80,11 +80,13 @@ HALFLIGHT_INLINE LitFaces::LitFaces(const SceneView& scene, std::span<const Colo
   for (std::uint32_t i = 0; i < hierarchy.size(); ++i) {
     if (counts(i)) { largest = std::max(largest, of_surface_[hierarchy[i].surface]); }
   }
-  for (double& weight : of_surface_) { weight = largest > 0.0 ? std::min(1.0, weight / largest) : 1.0; }
+  const double own = own_light * (1.0 - largest);
+  for (double& weight : of_surface_) { weight = largest > 0.0 ? std::min(1.0, (weight + own) / (largest + own)) : 1.0; }
   for (std::uint32_t i = 0; i < hierarchy.size(); ++i) {
     if (!counts(i)) { continue; }
     weight_[i] = of_surface_[hierarchy[i].surface];
     area_ += weight_[i] * hierarchy[i].area;
+    own_power_ += weight_[i] * hierarchy[i].area * brightest(emission[hierarchy[i].surface]);
   }
 }
 

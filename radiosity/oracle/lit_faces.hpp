@@ -15,10 +15,15 @@
 
 namespace radiosity {
 
+// Of what a face shows, this share of its own light counts as light that falls on it. An error of the reflected light that is much
+// smaller than what the face shows is not seen.
+inline constexpr double own_light = 0.03;
+
 // Faces have weights from 0 to 1. A face that is buried or reflects nothing has weight 0; one that emits at most half of the mean
 // emission has weight 1. Brighter faces are weighted by the irradiance H from other emitters, compared with their own emission E:
 // H / (E + H). So a sun has nearly no weight, and the walls of a room that all emit alike have equal weights. Weights are scaled so that
-// the largest is 1. If all are 0, every face that is not buried gets 1.
+// the largest is 1; where that is small, because all faces mostly show their own light, they become alike (own_light). If all are 0, every
+// face that is not buried gets 1.
 class LitFaces {
  public:
   // `reflectance`, `emission`: by input surface; `buried`: by node (buried.hpp), may be empty.
@@ -32,10 +37,12 @@ class LitFaces {
   [[nodiscard]] double area() const { return area_; }
   // Power of all faces that are not buried, each in its brightest channel, divided by area().
   [[nodiscard]] double mean_emission() const { return area_ > 0.0 ? power_ / area_ : 0.0; }
+  // The mean emission over area(), divided by mean_emission(): how much of what the faces show is their own light. 1 if all emit alike.
+  [[nodiscard]] double own_share() const { return power_ > 0.0 ? own_power_ / power_ : 0.0; }
 
  private:
   std::vector<double> weight_, of_surface_;
-  double area_ = 0.0, power_ = 0.0;
+  double area_ = 0.0, power_ = 0.0, own_power_ = 0.0;
 };
 
 }  // namespace radiosity

@@ -81,7 +81,10 @@ HALFLIGHT_INLINE double lit_part(const Run& run) {
   const Audit& audit = run.solution.audit;
   Fineness fineness{audit.epsilon, audit.min_area * lit_part(run), audit.light_epsilon};
   if (run.options.oracle) { fineness.oracle = run.options.oracle; }
-  if (audit.reflected_share) { fineness.reflected = brightness_of_reflected(*audit.reflected_share); }
+  if (audit.reflected_share) {  // or what the faces show themselves, if the reflected light is hardly seen beside it
+    const LitFaces lit{run.scene.view(), run.scene.reflectance, run.scene.emission, buried_nodes(run.scene.surfaces, run.scene.hierarchy)};
+    fineness.reflected = brightness_of_reflected(std::max(*audit.reflected_share, own_light * lit.own_share()));
+  }
   fineness.importance = &run.importance;
   return radiosity::refine(run.scene, fineness, run.rays.cast ? Linked::lamps : Linked::all);
 }

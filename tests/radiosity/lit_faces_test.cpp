@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: MIT
 // The area to which thresholds are relative does not jump when lamps change a little.
 
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <random>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -11,6 +15,7 @@
 #include <radiosity/scene/material.hpp>
 #include <radiosity/scene/options.hpp>
 #include <radiosity/scene/scene.hpp>
+#include <radiosity/support/random.hpp>
 
 #include "catch.hpp"
 #include "scenes.hpp"
@@ -58,4 +63,31 @@ TEST_CASE("of the walls of a room that shines one may shine a little less") {
     CAPTURE(alike, emission);
     CHECK(static_cast<double>(with(emission)) < 1.25 * static_cast<double>(alike));
   }
+}
+
+// A square tower with a waist: only the sides of the waist see each other, and reflect little. The less they send each other, the less is
+// an error of that seen beside what they show. By measurement 14 000 to 25 000 leaves; 65 000 to 150 000 where they are resolved for that
+// light alone.
+TEST_CASE("a tower that shines all over needs no more patches, the less its sides light each other") {
+  const std::uint64_t seed = std::random_device{}();
+  INFO("seed " << seed);
+  radiosity::Random random{seed, 0};
+  std::uint64_t leaves_of_all = 0;
+  for (int round = 0; round < 6; ++round) {
+    const double waist = 0.5 + 0.08 * round + 0.05 * random.uniform(), height = 1.0 + random.uniform(),
+                 reflectance = std::pow(10.0, -2.0 * random.uniform());
+    radiosity::Scene scene;
+    scene.materials = {{"paint", radiosity::Color{reflectance}, radiosity::Color{1.0}}};
+    const auto ring = [](double r, double z) { return std::vector<glm::dvec3>{{-r, -r, z}, {r, -r, z}, {r, r, z}, {-r, r, z}}; };
+    const std::vector<std::vector<glm::dvec3>> rings{ring(1.0, -3.0 * height), ring(1.0, 0.0), ring(waist, height), ring(1.0, 2.0 * height),
+                                                     ring(1.0, 5.0 * height)};
+    for (std::size_t k = 0; k < 16; ++k) {
+      const auto &low = rings[k / 4], &high = rings[k / 4 + 1];
+      const std::size_t a = k % 4, b = (k + 1) % 4;
+      scene.objects.push_back(scenes::object("side" + std::to_string(k), scenes::polygon({low[a], low[b], high[b], high[a]}), 0));
+    }
+    const radiosity::Options options{.epsilon = 0.01, .min_area = 2e-4, .audit_points = 0};
+    leaves_of_all += scenes::solved(scene, options).audit.leaves;
+  }
+  CHECK(leaves_of_all < 45'000);
 }
