@@ -23,9 +23,14 @@ HALFLIGHT_INLINE FinalGather::Indirect IndirectLight::gathered(const Fragment& f
 }
 
 HALFLIGHT_INLINE IndirectPoint IndirectLight::point_at(const Fragment& fragment, const GatherRays& rays) const {
-  const auto found = gathered(fragment, rays);
-  return indirect_point(found, {fragment.x, fragment.y}, fragment.place, seen_.eye().position,
-                        seen_.pixel_size()(fragment.place.point.position));
+  constexpr double close = 3.0;  // pixels
+  const double pixel_size = seen_.pixel_size()(fragment.place.point.position);
+  const bool many_around = contacts_.distance(fragment, close * pixel_size) < close * pixel_size;
+  const auto found = gathered(fragment, many_around && rays.least > gather_rays_at_contact.least ? gather_rays_at_contact : rays);
+  IndirectPoint point = indirect_point(found, {fragment.x, fragment.y}, fragment.place, seen_.eye().position, pixel_size);
+  // The sphere ends where the light may change faster than its rays could tell.
+  limit_radius(point, contacts_.distance(fragment, point.radius));
+  return point;
 }
 
 HALFLIGHT_INLINE bool IndirectLight::gather(double from, double to) {
@@ -35,6 +40,7 @@ HALFLIGHT_INLINE bool IndirectLight::gather(double from, double to) {
   std::vector<Fragment> fragments;  // in which these points lie
   double done = from;
   const double step = (to - from) / 6.0;
+  if (!blocks_.each_block(from, from, [&](std::size_t b) { contacts_.find(b); })) { return false; }
   // Every 16th pixel, every 8th and so on. The last pass gives all that is still uncovered a point of its own.
   struct Pass {
     std::uint32_t stride;

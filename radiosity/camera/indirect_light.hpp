@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include <radiosity/camera/contacts.hpp>
 #include <radiosity/camera/fragments.hpp>
 #include <radiosity/camera/indirect_points.hpp>
 #include <radiosity/camera/picture_blocks.hpp>
@@ -23,7 +24,7 @@ class IndirectLight {
  public:
   // All arguments must outlive it; `seen` is known before gather() is called.
   IndirectLight(const FinalGather& light, const PictureSize& size, const PictureBlocks& blocks, const SeenSurfaces& seen)
-      : light_{light}, blocks_{blocks}, seen_{seen}, points_{size.width, size.height} {}
+      : light_{light}, blocks_{blocks}, seen_{seen}, contacts_{blocks, seen}, points_{size.width, size.height} {}
 
   // Gathers at as many points as the fragments need. Reports progress between `from` and `to`. False when cancelled.
   [[nodiscard]] bool gather(double from, double to);
@@ -40,6 +41,7 @@ class IndirectLight {
   const FinalGather& light_;
   const PictureBlocks& blocks_;
   const SeenSurfaces& seen_;
+  Contacts contacts_;
   IndirectPoints points_;
 };
 
