@@ -19,6 +19,13 @@ namespace detail {
 // further, because it takes the points of so wide a sphere only if a plane explains them.
 inline constexpr double least_pixels = 1.0, most_pixels = 20.0, least_pixels_of_fit = 6.0;
 
+HALFLIGHT_INLINE void set_radius(IndirectPoint& point, double radius, double pixel_size) {
+  point.radius = radius;
+  point.widest = std::max(most_fit * radius, point.least_widest);
+  point.pixels = point.radius / pixel_size;
+  point.widest_pixels = point.widest / pixel_size;
+}
+
 }  // namespace detail
 
 HALFLIGHT_INLINE IndirectPoint indirect_point(const FinalGather::Indirect& found, const std::array<std::uint32_t, 2>& pixel,
@@ -33,13 +40,17 @@ HALFLIGHT_INLINE IndirectPoint indirect_point(const FinalGather::Indirect& found
   // Width of a pixel on the surface; limited to five times the unslanted width.
   const double footprint = pixel_size / std::max(facing, 0.2);
   const double allowed = sphere_radius(std::max(found.nearness, found.nearness_of_light), found.nearest);
-  point.radius = std::clamp(allowed, detail::least_pixels * pixel_size, detail::most_pixels * footprint);
-  point.widest = std::max(most_fit * point.radius, detail::least_pixels_of_fit * footprint);
-  point.pixels = point.radius / pixel_size;
-  point.widest_pixels = point.widest / pixel_size;
+  point.least_widest = detail::least_pixels_of_fit * footprint;
+  detail::set_radius(point, std::clamp(allowed, detail::least_pixels * pixel_size, detail::most_pixels * footprint), pixel_size);
   point.gathered = found.irradiance;
   point.variance = found.variance;
   return point;
+}
+
+HALFLIGHT_INLINE void limit_radius(IndirectPoint& point, double most) {
+  if (!(most < point.radius)) { return; }
+  const double pixel_size = point.radius / point.pixels;
+  detail::set_radius(point, std::max(most, detail::least_pixels * pixel_size), pixel_size);
 }
 
 HALFLIGHT_INLINE IndirectPoints::IndirectPoints(std::uint32_t width, std::uint32_t height)

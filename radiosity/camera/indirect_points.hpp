@@ -2,8 +2,9 @@
 #pragma once
 
 // Interpolates indirect light over a picture from sparse points (radiosity/picture/gathered_point.hpp): dense in corners and at contacts,
-// sparse on open walls. The radius of a point's sphere is limited below and above in pixels, as is that of its fit. Points are stored by
-// tiles of the picture. A pixel blends the points whose spheres contain it, with weights that fall to 0 at their borders.
+// sparse on open walls. The radius of a point's sphere is limited below and above in pixels, as is that of its fit, and by the distance
+// from the nearest contact that the picture shows (contacts.hpp). Points are stored by tiles of the picture. A pixel blends the points
+// whose spheres contain it, with weights that fall to 0 at their borders.
 
 #include <array>
 #include <cstddef>
@@ -24,11 +25,14 @@ namespace radiosity {
 struct IndirectPoint : GatheredPoint {
   std::uint32_t x = 0, y = 0;                // its pixel
   double pixels = 0.0, widest_pixels = 0.0;  // radii of both spheres, in pixels; upper bounds
+  double least_widest = 0.0;                 // lower limit of `widest`
 };
 
 // A point made from the light gathered at a place seen through this pixel. `pixel_size`: width of a pixel at the place, m.
 [[nodiscard]] IndirectPoint indirect_point(const FinalGather::Indirect& found, const std::array<std::uint32_t, 2>& pixel,
                                            const FinalGather::Place& place, const glm::dvec3& eye, double pixel_size);
+// Makes the radius of a point's sphere at most this, but not less than a pixel.
+void limit_radius(IndirectPoint& point, double most);
 
 class IndirectPoints {
  public:

@@ -4,6 +4,7 @@
 // Divides a picture into square blocks of pixels, over which the stages of a gathered picture run in parallel.
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 
@@ -50,6 +51,17 @@ class PictureBlocks {
   void each_neighbour(std::uint32_t x, std::uint32_t y, const Body& body) const {
     for (std::uint32_t v = y > 0 ? y - 1 : 0; v < std::min(y + 2, size_.height); ++v) {
       for (std::uint32_t u = x > 0 ? x - 1 : 0; u < std::min(x + 2, size_.width); ++u) { body(u, v); }
+    }
+  }
+  // Calls body(block) for the blocks that reach within `pixels` of the pixel, along rows and columns.
+  template <class Body>
+  void each_block_within(std::uint32_t x, std::uint32_t y, double pixels, const Body& body) const {
+    const auto reach = static_cast<std::uint32_t>(std::min(std::ceil(pixels), 1e6));
+    const auto low = [&](std::uint32_t at) { return (at > reach ? at - reach : 0) / block_side; };
+    const std::uint32_t right = std::min(x + reach, size_.width - 1) / block_side,
+                        bottom = std::min(y + reach, size_.height - 1) / block_side;
+    for (std::uint32_t v = low(y); v <= bottom; ++v) {
+      for (std::uint32_t u = low(x); u <= right; ++u) { body(v * columns_ + u); }
     }
   }
 

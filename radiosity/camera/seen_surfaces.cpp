@@ -60,7 +60,17 @@ HALFLIGHT_INLINE void SeenSurfaces::glance(std::size_t block) {
   if (waiting > 0) { look(); }
 }
 
-// Do this pixel and its neighbours show more than one surface?
+HALFLIGHT_INLINE std::span<const Fragment> SeenSurfaces::at(std::uint32_t x, std::uint32_t y) const {
+  const std::vector<Fragment>& all = fragments_[blocks_.block(x, y)];
+  const auto before = [](const Fragment& f, const std::pair<std::uint32_t, std::uint32_t>& pixel) {
+    return std::pair{f.y, f.x} < std::pair{pixel.second, pixel.first};
+  };
+  const auto first = std::lower_bound(all.begin(), all.end(), std::pair{x, y}, before);
+  auto last = first;
+  while (last != all.end() && last->x == x && last->y == y) { ++last; }
+  return {first, last};
+}
+
 HALFLIGHT_INLINE bool SeenSurfaces::by_an_edge(std::uint32_t x, std::uint32_t y) const {
   const std::uint32_t own = surfaces_[blocks_.pixel(x, y)];
   bool edge = own == several_surfaces;

@@ -38,6 +38,10 @@ class SeenSurfaces {
   [[nodiscard]] const std::vector<Fragment>& of(std::size_t block) const { return fragments_[block]; }
   // The surface that the first four rays of a pixel meet, or no_surface or several_surfaces.
   [[nodiscard]] std::uint32_t surface(std::size_t pixel) const { return surfaces_[pixel]; }
+  // The fragments of a pixel.
+  [[nodiscard]] std::span<const Fragment> at(std::uint32_t x, std::uint32_t y) const;
+  // Do this pixel and its neighbours show more than one surface?
+  [[nodiscard]] bool by_an_edge(std::uint32_t x, std::uint32_t y) const;
   [[nodiscard]] const FinalGather::Eye& eye() const { return eye_; }
   [[nodiscard]] const PixelSize& pixel_size() const { return pixel_size_; }
 
@@ -49,7 +53,6 @@ class SeenSurfaces {
 
  private:
   void glance(std::size_t block);
-  [[nodiscard]] bool by_an_edge(std::uint32_t x, std::uint32_t y) const;
   // Samples those pixels of a block for which `wanted(x, y)` by rays through these points instead, a multiple of 16.
   template <class Wanted>
   void look_again(std::size_t block, const Wanted& wanted, std::span<const glm::dvec2> at);

@@ -35,6 +35,9 @@ struct GatherRays {
 inline constexpr GatherRays gather_rays;
 // For a point that stands for a single pixel between others: a quarter of the work, as the fit draws on the points around it.
 inline constexpr GatherRays gather_rays_between{128, 512, 0.06, 64};
+// For a point at a contact (radiosity/camera/contacts.hpp), which stands for a few pixels: as exact as others where its rays disagree, and
+// with fewer rays where they agree, because many points share its fit, of which not all agree by chance.
+inline constexpr GatherRays gather_rays_at_contact{128};
 // For a point that is gathered again because it was doubtful. Nearby light causes most of the noise, so it gets most of the work.
 inline constexpr GatherRays gather_rays_again{1024, 4096, 0.02, 1024};
 inline constexpr double gathered_part_of_distance = 0.2, most_fit = 3.0;
