@@ -26,184 +26,49 @@
 #include <raycast/transform.hpp>
 
 #include <radiosity/geometry/form_factor.hpp>
+#include <radiosity/hierarchy/lamp_frames.hpp>
 #include <radiosity/hierarchy/patch.hpp>
 #include <radiosity/hierarchy/surface.hpp>
 #include <radiosity/hierarchy/twins.hpp>
+#include <radiosity/hierarchy/wall_lines.hpp>
+#include <radiosity/scene/material.hpp>
 
 namespace radiosity {
 
 namespace detail {
 
-struct WallFace {
-  Polygon polygon;
-  glm::dvec3 normal{0.0};
-  raycast::Box box;
-  double thickness = 0.0;  // distance from this face to the one on the other side of the wall; 0 for a sheet
-};
-
 // Share of a line across a face that walls must cover for a cut. About half, but not exactly, because regular models often cover exactly
 // half and rounding would then decide.
 inline constexpr double share_of_walls = 0.47;
-// A few walls on a wide face, of a tent or a house on its ground, cut it even if they are short compared with it, because the area
-// between them may be dark. Objects thicker than this share of their length count as blocks, not walls: cutting along a block makes long
-// narrow patches, which do more harm than good.
-inline constexpr double share_of_few_walls = 0.07, thickness_of_wall = 0.2;
-// A wall whose foot is nearer to a face than this share of its height above the face stands on it: files of other programs have feet that
-// are rounded, or a millimetre above or below the floor, and a patch that extends under such a wall would be no better than under one
-// that touches.
-inline constexpr double foot_gap = 0.005;
-// close_gap: an object parallel to a face hides it if its distance is at most this share of its own diameter. share_hidden: its outline
-// cuts a part of the face if it is at least this share of that part; with smaller objects, long narrow patches would do more harm.
-// least_outline: triangles of layers of fine meshes, smaller than this share of the scene's diameter, do not cut each other.
-inline constexpr double close_gap = 0.02, share_hidden = 0.03, least_outline = 0.02;
+// A few thin walls on a wide face, of a tent or a house on its ground, cut it even if they are short compared with it, because the area
+// between them may be dark.
+inline constexpr double share_of_few_walls = 0.07;
 inline constexpr std::ptrdiff_t least_lines = 2, few_lines = 12;  // a single wall encloses nothing
+// share_hidden: the outline of an object close to a face cuts a part of it if it is at least this share of that part; with smaller
+// objects, long narrow patches would do more harm. least_outline: triangles of layers of fine meshes, smaller than this share of the
+// scene's diameter, do not cut each other.
+inline constexpr double share_hidden = 0.03, least_outline = 0.02;
 
-// A line across a face, and the intervals of it on which walls stand.
-struct WallLine {
-  glm::dvec3 point{0.0}, normal{0.0};  // point and normal of the walls' plane
-  glm::dvec3 along{0.0};               // unit
-  std::vector<std::pair<double, double>> intervals;
-  bool thin = true;     // are all walls on it thin?
-  double hidden = 0.0;  // area of the object close to the face whose outline this line is; 0 for walls
-
-  [[nodiscard]] double at(const glm::dvec3& p) const { return glm::dot(p - point, along); }
-  // Length of the part between two places that the walls cover.
-  [[nodiscard]] double covered(double from, double to) const {
-    double sum = 0.0;
-    double reached = from;
-    for (const auto& [lo, hi] : intervals) {
-      sum += std::max(0.0, std::min(hi, to) - std::max(lo, reached));
-      reached = std::max(reached, hi);
-    }
-    return sum;
-  }
-};
-
-HALFLIGHT_INLINE bool boxes_meet(const raycast::Box& a, const raycast::Box& b, double margin) {
-  for (int k = 0; k < 3; ++k) {
-    if (!(a.lo[k] - margin <= b.hi[k] && b.lo[k] - margin <= a.hi[k])) { return false; }
-  }
-  return true;
-}
-
-// Sets the thickness: the distance behind each face to the next face that looks the other way. Solids of many faces are no walls.
-HALFLIGHT_INLINE void measure_thickness(std::vector<WallFace>& faces) {
-  constexpr std::size_t most_faces = 256;
-  for (WallFace& face : faces) {
-    face.thickness = std::numeric_limits<double>::infinity();
-    if (faces.size() > most_faces) { continue; }
-    for (const WallFace& other : faces) {
-      const double depth = glm::dot(face.normal, face.polygon[0] - other.polygon[0]);
-      const bool behind = depth > 0.0 && depth < face.thickness && glm::dot(face.normal, other.normal) < -0.99;
-      if (behind && boxes_meet(face.box, other.box, (1.0 + 1e-6) * depth)) { face.thickness = depth; }
-    }
-  }
-}
-
-HALFLIGHT_INLINE std::vector<WallFace> wall_faces(const Surface& surface) {
-  std::vector<WallFace> faces;
-  for (const brep::FaceId f : brep::faces(surface.brep)) {
-    if (surface.brep.data(f).sheet == brep::no_sheet) { continue; }
-    WallFace face{corner_polygon(surface.brep, f), {}, {}};
-    const glm::dvec3 area = vector_area(face.polygon);
-    if (!(glm::length(area) > 0.0)) { continue; }
-    face.normal = glm::normalize(area);
-    for (const glm::dvec3& p : face.polygon) { face.box.extend(p); }
-    faces.push_back(std::move(face));
-  }
-  if (surface.object->solid()) { measure_thickness(faces); }
-  return faces;
-}
-
-// Does the plane of `wall` cut off no more than a strip of this width, as the underside of a wall close above the floor cuts off of the
-// walls beside it?
-HALFLIGHT_INLINE bool along_border(const WallFace& face, const WallFace& wall, double width) {
-  double behind = 0.0;
-  double before = 0.0;
-  for (const glm::dvec3& p : face.polygon) {
-    const double at = glm::dot(wall.normal, p - wall.polygon[0]);
-    behind = std::max(behind, -at);
-    before = std::max(before, at);
-  }
-  return std::min(behind, before) < width;
-}
-
-// Adds the interval on which `wall` stands on the plane of `face` or passes through it, if it rises above the front of the face.
-HALFLIGHT_INLINE void add_wall(const WallFace& face, const WallFace& wall, double tolerance, std::vector<WallLine>& lines) {
-  const glm::dvec3 across = glm::cross(face.normal, wall.normal);
-  if (!(glm::length(across) > 1e-6)) { return; }
-  const glm::dvec3 along = glm::normalize(across);
-  constexpr double steep = 0.5;  // sine of 30 degrees: the plane of the wall meets the face within 1.8 gaps of the foot
-  const Polygon& w = wall.polygon;
-  const auto height = [&](const glm::dvec3& p) { return glm::dot(face.normal, p - face.polygon[0]); };
-  double top = 0.0;
-  for (const glm::dvec3& p : w) { top = std::max(top, height(p)); }
-  const double foot = std::max(tolerance, glm::length(across) > steep ? foot_gap * top : 0.0);
-  double from = std::numeric_limits<double>::infinity();
-  double to = -from;
-  const auto meet = [&](const glm::dvec3& p) {
-    from = std::min(from, glm::dot(p - w[0], along));
-    to = std::max(to, glm::dot(p - w[0], along));
-  };
-  for (std::size_t i = 0; i < w.size(); ++i) {
-    const glm::dvec3& a = w[i];
-    const glm::dvec3& b = w[(i + 1) % w.size()];
-    const double ha = height(a);
-    const double hb = height(b);
-    if (std::abs(ha) <= foot) { meet(a); }
-    if ((ha > tolerance && hb < -tolerance) || (ha < -tolerance && hb > tolerance)) { meet(a + ha / (ha - hb) * (b - a)); }
-  }
-  if (!(top > foot) || !(to - from > tolerance) || along_border(face, wall, foot)) { return; }
-  const bool thin = wall.thickness <= thickness_of_wall * (to - from);
-  for (WallLine& line : lines) {
-    const double cosine = glm::dot(line.normal, wall.normal);
-    if (line.hidden > 0.0 || std::abs(cosine) < 1.0 - 1e-12 || std::abs(glm::dot(line.normal, w[0] - line.point)) > tolerance) { continue; }
-    const double turn = glm::dot(along, line.along) < 0.0 ? -1.0 : 1.0;
-    const double shift = line.at(w[0]);
-    line.intervals.emplace_back(shift + std::min(turn * from, turn * to), shift + std::max(turn * from, turn * to));
-    line.thin = line.thin && thin;
-    return;
-  }
-  lines.push_back({w[0], wall.normal, along, {{from, to}}, thin});
-}
-
-// Adds the outline of `sheet` if it is parallel to `face` and close in front of it, as a lamp under a ceiling: the face is dark behind it
-// and bright beside it.
-HALFLIGHT_INLINE void add_outline(const WallFace& face, const WallFace& sheet, double tolerance, std::vector<WallLine>& lines) {
-  if (std::abs(glm::dot(face.normal, sheet.normal)) < 1.0 - 1e-6) { return; }
-  for (const glm::dvec3& p : sheet.polygon) {
-    const double height = glm::dot(face.normal, p - face.polygon[0]);
-    if (!(height > tolerance && height <= close_gap * sheet.box.diameter())) { return; }
-  }
-  for (std::size_t i = 0; i < sheet.polygon.size(); ++i) {
-    const glm::dvec3& a = sheet.polygon[i];
-    const glm::dvec3 edge = sheet.polygon[(i + 1) % sheet.polygon.size()] - a;
-    const double length = glm::length(edge);
-    if (length > tolerance) {
-      lines.push_back({a,
-                       glm::normalize(glm::cross(edge, face.normal)),
-                       edge / length,
-                       {{0.0, length}},
-                       false,
-                       glm::length(vector_area(sheet.polygon))});
-    }
-  }
-}
-
-// Cuts one face along its lines.
-HALFLIGHT_INLINE void cut_along(SurfaceBRep& brep, brep::FaceId face, std::vector<WallLine>& lines) {
-  for (WallLine& line : lines) { std::sort(line.intervals.begin(), line.intervals.end()); }
+// Cuts one face along its lines. `tolerance`: a length.
+HALFLIGHT_INLINE void cut_along(SurfaceBRep& brep, brep::FaceId face, std::vector<WallLine>& lines, double tolerance) {
+  for (WallLine& line : lines) { line.join_intervals(tolerance); }
+  // Frames around lamps are cut by a rule of their own, so they do not make the other walls many.
   const auto thin = std::count_if(lines.begin(), lines.end(), [](const WallLine& line) { return line.thin; });
-  const bool few = thin >= least_lines && thin <= few_lines;
+  const auto others = std::count_if(lines.begin(), lines.end(), [](const WallLine& line) { return line.thin && !line.beside_lamp; });
+  const bool few = thin >= least_lines && others <= few_lines;
+  std::size_t frame_cuts = 0;
   const auto place = [&](const SurfaceBRep& b, brep::FaceId part) {
+    if (frame_cuts < most_frame_cuts) {
+      const brep::Cut cut = cut_at_frame(b, part, lines);
+      if (cut.a.valid()) {
+        ++frame_cuts;
+        return cut;
+      }
+    }
     for (const WallLine& line : lines) {
       const brep::Cut cut = brep::AlongPlane{line.point, line.normal}(b, part);
       if (!cut.a.valid()) { continue; }
-      const auto point = [&](brep::HalfedgeId h, double on) {
-        return (1.0 - on) * b.data(b.vertex(h)).position + on * b.data(b.target(h)).position;
-      };
-      const double p = line.at(point(cut.a, cut.on_a));
-      const double q = line.at(point(cut.b, cut.on_b));
+      const auto [p, q] = line.ends(b, cut);
       const bool outline = line.hidden > 0.0;
       if (outline && line.hidden < share_hidden * glm::length(vector_area(corner_polygon(b, part)))) { continue; }
       const double least = outline || (few && line.thin) ? share_of_few_walls : share_of_walls;
@@ -213,7 +78,7 @@ HALFLIGHT_INLINE void cut_along(SurfaceBRep& brep, brep::FaceId face, std::vecto
   };
   // If the operators refuse, the face stays whole, which is less exact but valid.
   (void)brep::split_recursively(
-      brep, face, place, [](const SurfaceBRep&, brep::FaceId) { return false; }, 1024);
+      brep, face, place, [](const SurfaceBRep&, brep::FaceId) { return false; }, 1024 + 2 * most_frame_cuts);
 }
 
 // Limit of the pairs of faces of an object and its partner that are examined.
@@ -275,13 +140,17 @@ HALFLIGHT_INLINE WallPairs wall_pairs(const std::vector<Surface>& surfaces, doub
 
 }  // namespace detail
 
-HALFLIGHT_INLINE std::size_t cut_at_walls(std::vector<Surface>& surfaces, double diameter, std::size_t most_pairs) {
+HALFLIGHT_INLINE std::size_t cut_at_walls(std::vector<Surface>& surfaces, double diameter, std::size_t most_pairs,
+                                          const std::vector<Color>& emission) {
   const double tolerance = 1e-9 * diameter;
   const auto [order, partners, not_looked_at] = detail::wall_pairs(surfaces, tolerance, most_pairs);
   std::size_t left_whole = not_looked_at;
+  const detail::LampBoxes lamps{surfaces, emission};
   std::vector<std::vector<detail::WallFace>> walls(surfaces.size());  // before any cut
   for (const std::uint32_t o : order) {
-    if (!partners[o].empty()) { walls[o] = detail::wall_faces(surfaces[o]); }
+    if (partners[o].empty()) { continue; }
+    walls[o] = detail::wall_faces(surfaces[o]);
+    for (detail::WallFace& wall : walls[o]) { wall.lamps = lamps.beside(wall); }
   }
   for (const std::uint32_t o : order) {
     SurfaceBRep& brep = surfaces[o].brep;
@@ -305,7 +174,7 @@ HALFLIGHT_INLINE std::size_t cut_at_walls(std::vector<Surface>& surfaces, double
           }
         }
       }
-      if (!lines.empty()) { detail::cut_along(brep, faces[k], lines); }
+      if (!lines.empty()) { detail::cut_along(brep, faces[k], lines, tolerance); }
     }
   }
   return left_whole;

@@ -12,7 +12,9 @@
 // a shelf in front of a wall: a patch that extends beyond the outline would receive light outside it and send a part of that light to the
 // back of the lamp.
 //
-// Shorter walls do not divide a face; refinement resolves the shadow at their feet. Invariant: the boundary stays valid, and each part
+// Walls that are frames around lamps cut a face even if they are many and short (lamp_frames.hpp).
+//
+// Other short walls do not divide a face; refinement resolves the shadow at their feet. Invariant: the boundary stays valid, and each part
 // lies on the sheet of its face.
 
 #include <cstddef>
@@ -20,13 +22,18 @@
 #include <vector>
 
 #include <radiosity/hierarchy/surface.hpp>
+#include <radiosity/scene/material.hpp>
 
 namespace radiosity {
 
+inline constexpr std::size_t most_wall_pairs = 30'000'000;
+
 // Cuts the faces of flat objects; to be called before any refinement. Not cut are objects with more than ten million pairs of faces to
 // examine, and objects covered by a duplicate. Time: pairs of objects whose bounds are close to each other, of which at most `most_pairs`
-// are examined, and pairs of their faces. Returns the number of objects that were left whole because of either limit.
-std::size_t cut_at_walls(std::vector<Surface>& surfaces, double diameter, std::size_t most_pairs = 30'000'000);
+// are examined, and pairs of their faces. `emission`: of each input surface, in which frames around lamps are found; without it, none.
+// Returns the number of objects that were left whole because of either limit.
+std::size_t cut_at_walls(std::vector<Surface>& surfaces, double diameter, std::size_t most_pairs = most_wall_pairs,
+                         const std::vector<Color>& emission = {});
 
 // The warning about objects that cut_at_walls() left whole.
 [[nodiscard]] inline std::string warning_of_uncut(std::size_t left_whole) {

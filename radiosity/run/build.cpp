@@ -71,7 +71,9 @@ HALFLIGHT_INLINE std::optional<Failure> build(detail::Run& run) {
     scene.meshing = [&scene](const LeafFace& leaf) { return scene.light_meshing->split(leaf); };
   }
   audit.warnings = warnings(scene.input, scene.frame, boundaries);
-  if (const std::size_t left = cut_at_walls(boundaries, scene.objects.diameter())) { audit.warnings.push_back(warning_of_uncut(left)); }
+  if (const std::size_t left = cut_at_walls(boundaries, scene.objects.diameter(), most_wall_pairs, scene.emission)) {
+    audit.warnings.push_back(warning_of_uncut(left));
+  }
   const std::uint64_t uncut_lamps = detail::faces_that_shine(boundaries, scene.emission);
   cut_long_faces(boundaries, options.min_area);
   scene.hierarchy = make_roots(boundaries, scene.budget.arrays);

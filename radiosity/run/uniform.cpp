@@ -59,7 +59,7 @@ HALFLIGHT_INLINE std::optional<Failure> build_evenly(Run& run, const UniformOpti
     return Failure{Failure::Kind::invalid_scene, {"closed, and nothing in it absorbs light: there is no solution"}};
   }
   run.solution.audit.left_out = scene.plan.left_out;
-  cut_at_walls(scene.surfaces, scene.objects.diameter());
+  cut_at_walls(scene.surfaces, scene.objects.diameter(), most_wall_pairs, scene.emission);
   scene.hierarchy = make_roots(scene.surfaces);
   run.watch.lap("build");
 
