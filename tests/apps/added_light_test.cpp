@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: MIT
+// Models without a lamp get one where they are seen.
+
+#include <cmath>
+#include <cstdint>
+#include <random>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include <raycast/scene.hpp>
+
+#include <radiosity/scene/material.hpp>
+#include <radiosity/scene/scene.hpp>
+
+#include "apps/intake/light_views.hpp"
+#include "catch.hpp"
+#include "houses.hpp"
+#include "models.hpp"
+
+using houses::add_box;
+using houses::house_without_lamp;
+using models::noted;
+
+// Rooms without lamps as models have them: looking inwards, with things in them, some up to the ceiling, turned and of any size.
+TEST_CASE("a closed room in which nothing shines gets a lamp in its air") {
+  const unsigned seed = 7;
+  INFO("seed " << seed);
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  for (int round = 0; round < 20; ++round) {
+    const double size = std::exp(8.0 * unit(random) - 4.0);
+    const glm::dvec3 extent{4.0 * size, 3.0 * size, 2.5 * size};
+    apps::Model model;
+    model.groups = {"room"};
+    model.materials = {{"grey", radiosity::Color(0.5)}};
+    add_box(model, glm::dvec3(0.0), extent, true);
+    for (int i = 0; i < 5; ++i) {
+      const glm::dvec3 lo = extent * glm::dvec3(0.05 + 0.7 * unit(random), 0.05 + 0.7 * unit(random), 0.02);
+      add_box(model, lo,
+              lo + extent * glm::dvec3(0.05 + 0.15 * unit(random), 0.05 + 0.15 * unit(random), i == 0 ? 0.97 : 0.9 * unit(random)), false);
+    }
+    std::vector<std::string> faults;
+    const auto file = apps::to_scene(std::move(model), apps::UpAxis::z, {}, faults);
+    REQUIRE(file);
+    CHECK(radiosity::faults(file->scene).empty());
+    CHECK(noted(file->notes, "hangs under its ceiling"));
+    const radiosity::SceneObject& lamp = file->scene.objects.back();
+    std::vector<raycast::PlacedObject> placed;
+    for (const auto& object : file->scene.objects) { placed.emplace_back(object.shape, object.placement); }
+    const raycast::Scene objects(std::move(placed));
+    const auto index = static_cast<std::uint32_t>(file->scene.objects.size() - 1);
+    CHECK_FALSE(objects.covered(lamp.shape->bounds().centre(), {0, 0, -1}, index));
+    const auto below = objects.closest({lamp.shape->bounds().centre(), {0, 0, -1}}, index, 0);
+    REQUIRE(below);
+    CHECK(below->front);
+    CHECK(below->t > 0.05 * size);
+  }
+}
+
+TEST_CASE("in a corridor without a lamp of its own the lamp hangs in the middle, whatever lies along the walls") {
+  const auto seed = std::random_device{}();
+  INFO("seed " << seed);
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  for (int round = 0; round < 20; ++round) {
+    const double length = 8.0 + 20.0 * unit(random);
+    const bool along_x = round % 2 == 0;
+    const auto turned = [&](const glm::dvec3& p) { return along_x ? glm::dvec3(p.y, p.x, p.z) : p; };
+    apps::Model model;
+    model.groups = {"corridor"};
+    model.materials = {{"grey", radiosity::Color(0.5)}};
+    add_box(model, glm::dvec3(0.0), turned({2.0, length, 2.5}), true);
+    for (int door = 0; door < 8; ++door) {
+      const double at = (length - 1.0) * unit(random);
+      add_box(model, turned({0.0, at, 0.0}), turned({0.01 + 0.05 * unit(random), at + 0.9, 2.0}), false);
+    }
+    std::vector<std::string> faults;
+    const auto file = apps::to_scene(std::move(model), apps::UpAxis::z, {}, faults);
+    REQUIRE(file);
+    REQUIRE(noted(file->notes, "hangs under its ceiling"));
+    const glm::dvec3 middle = turned(file->scene.objects.back().shape->bounds().centre());
+    CAPTURE(length, middle.x, middle.y);
+    CHECK(std::abs(middle.y - 0.5 * length) < length / 8.0);
+  }
+}
+
+TEST_CASE("a house of thick walls without a lamp is lit where it is seen") {
+  const auto taken = [](apps::Model model) {
+    std::vector<std::string> faults;
+    auto file = apps::to_scene(std::move(model), apps::UpAxis::z, {}, faults);
+    REQUIRE(file);
+    CHECK(radiosity::faults(file->scene).empty());
+    return std::move(*file);
+  };
+  const auto in_room = [](const glm::dvec3& p) { return p.x > 0.0 && p.x < 4.0 && p.y > 0.0 && p.y < 4.0 && p.z > 0.0 && p.z < 3.0; };
+  const apps::SceneFile house = taken(house_without_lamp(true));
+  CHECK(noted(house.notes, "hangs under its ceiling"));
+  CHECK(in_room(house.scene.objects.back().shape->bounds().centre()));
+  REQUIRE(house.cameras.size() == 1);
+  CHECK(in_room(house.cameras[0].eye));
+
+  for (const bool inside : {false, true}) {  // seen from where the file's camera stands
+    apps::Model model = house_without_lamp(true);
+    radiosity::Camera camera;
+    camera.name = "given";
+    camera.eye = inside ? glm::dvec3(1, 1, 1.5) : glm::dvec3(-8, -6, 4);
+    camera.forward = glm::dvec3(2, 2, 1.5) - camera.eye;
+    model.cameras = {camera};
+    const apps::SceneFile file = taken(std::move(model));
+    CHECK(noted(file.notes, inside ? "hangs under its ceiling" : "put into a studio"));
+    CHECK(file.cameras.size() == 1);
+    CHECK_FALSE(noted(file.notes, "next to nothing"));
+  }
+  const apps::SceneFile doll = taken(house_without_lamp(false));
+  CHECK(noted(doll.notes, "hangs under its ceiling"));
+  CHECK(doll.cameras.empty());
+}
+
+// Walls, floor and ceiling are boxes with a thickness, and there is a doorway, so no shell is a closed room.
+TEST_CASE("a room with a doorway and without a lamp is lit if the camera of the file stands in it") {
+  const unsigned seed = std::random_device{}();
+  INFO("seed " << seed);
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  for (int round = 0; round < 12; ++round) {
+    const double size = std::exp(8.0 * unit(random) - 4.0), door = 0.5 + unit(random);
+    const glm::dvec3 room = glm::dvec3(3.0 + 3.0 * unit(random), 3.0 + 2.0 * unit(random), 2.3 + unit(random));
+    const auto wall = [&](apps::Model& model, const glm::dvec3& lo, const glm::dvec3& hi) { add_box(model, size * lo, size * hi, false); };
+    apps::Model model;
+    model.groups = {"house"};
+    model.materials = {{"grey", radiosity::Color(0.5)}};
+    wall(model, {-0.2, -0.2, -0.2}, {room.x + 0.2, room.y + 0.2, 0});
+    wall(model, {-0.2, -0.2, room.z}, {room.x + 0.2, room.y + 0.2, room.z + 0.2});
+    wall(model, {-0.2, -0.2, 0}, {0, room.y + 0.2, room.z});
+    wall(model, {room.x, -0.2, 0}, {room.x + 0.2, room.y + 0.2, room.z});
+    wall(model, {0, room.y, 0}, {room.x, room.y + 0.2, room.z});
+    wall(model, {door, -0.2, 0}, {room.x, 0, room.z});
+    wall(model, {0.6 * room.x, 0.6 * room.y, 0}, {0.8 * room.x, 0.8 * room.y, 0.8});
+    const bool inside = round % 3 != 0;
+    radiosity::Camera camera;
+    camera.name = "given";
+    camera.eye = size * (inside ? room * glm::dvec3(0.3 + 0.2 * unit(random), 0.3 + 0.2 * unit(random), 0.6) : glm::dvec3(-8, -6, 4));
+    camera.forward = 0.5 * size * room - camera.eye;
+    model.cameras = {camera};
+    std::vector<std::string> faults;
+    const auto file = apps::to_scene(std::move(model), apps::UpAxis::z, {}, faults);
+    REQUIRE(file);
+    CAPTURE(round, size, door, room.x, room.y, room.z);
+    CHECK(noted(file->notes, inside ? "hangs under its ceiling" : "put into a studio"));
+    CHECK_FALSE(noted(file->notes, "next to nothing"));
+    CHECK(apps::LightViews(file->scene).lit_share(file->cameras.front()) > 0.2);
+    if (inside) {
+      const glm::dvec3 lamp = file->scene.objects.back().shape->bounds().centre() / size;
+      CHECK((lamp.x > 0.0 && lamp.x < room.x && lamp.y > 0.0 && lamp.y < room.y && lamp.z > 0.5 * room.z && lamp.z < room.z));
+    }
+  }
+}
