@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // libFuzzer target: the input is read as a scene, as a mesh and as a model of every format, as a Draco stream, and as the light of a
-// solution; with --format=obj (scene, light, drc, or the ending of another format) as that alone. Nothing crashes; what is refused says why and where; a mesh
-// that is read and written reads back the same; what the intake makes of a model is a sound scene; light that is read is written as it was.
+// solution; with --format=obj (scene, light, drc, or the ending of another format) as that alone. Nothing crashes; what is refused says why
+// and where; a mesh that is read and written reads back the same; what the intake makes of a model is a sound scene; light that is read is
+// written as it was.
 
 #include <algorithm>
 #include <cstdint>
