@@ -8,11 +8,11 @@
 #include <utility>
 
 #include "apps/bytes.hpp"
-#include "apps/intake/draco_bytes.hpp"
 #include "apps/intake/draco_corners.hpp"
 #include "apps/intake/draco_edgebreaker.hpp"
 #include "apps/intake/draco_prediction.hpp"
 #include "apps/intake/draco_rans.hpp"
+#include "apps/intake/stream_bytes.hpp"
 
 namespace apps::intake::draco {
 namespace {
@@ -285,7 +285,7 @@ class Reader {
     }
   }
 
-  Bytes in_;
+  StreamBytes in_;
   std::size_t most_;
   std::vector<CornerTable> tables_;  // none in sequential meshes
   std::vector<Group> groups_;
@@ -297,7 +297,7 @@ class Reader {
 std::optional<Mesh> read_mesh(std::string_view bytes, std::string& fault) {
   try {
     return Reader(bytes).read();
-  } catch (const Fault& found) {
+  } catch (const StreamFault& found) {
     fault = "byte " + std::to_string(found.offset) + " of the Draco stream: " + found.sentence;
     return std::nullopt;
   }

@@ -26,10 +26,10 @@ enum class Symbol : std::uint8_t {
 class Symbols {
  public:
   // Standard: one bit for C, three for the others.
-  explicit Symbols(Bytes standard) : standard_(standard) {}
+  explicit Symbols(StreamBytes standard) : standard_(standard) {}
   // By valence: coded apart for each number of edges, from 2 to 7, at the vertex where the last triangle ended.
   Symbols() = default;
-  void read_contexts(Bytes& in, std::size_t most) {
+  void read_contexts(StreamBytes& in, std::size_t most) {
     for (auto& context : contexts_) {
       const std::uint32_t count = in.varint();
       if (count > most) { in.refuse("there are more symbols than triangles"); }
@@ -38,7 +38,7 @@ class Symbols {
   }
 
   // `valence`: of that vertex; nothing before the first triangle.
-  [[nodiscard]] Symbol next(const Bytes& in, std::optional<std::uint32_t> valence) {
+  [[nodiscard]] Symbol next(const StreamBytes& in, std::optional<std::uint32_t> valence) {
     if (standard_) { return standard_->bits(1) == 0 ? Symbol::c : static_cast<Symbol>(1 + 2 * standard_->bits(2)); }
     if (!valence) { return Symbol::e; }
     auto& context = contexts_[std::clamp(*valence, 2U, 7U) - 2U];
@@ -50,13 +50,13 @@ class Symbols {
   }
 
  private:
-  std::optional<Bytes> standard_;
+  std::optional<StreamBytes> standard_;
   std::array<std::vector<std::uint32_t>, 6> contexts_;
 };
 
 class Edgebreaker {
  public:
-  explicit Edgebreaker(Bytes& in) : in_(in) {}
+  explicit Edgebreaker(StreamBytes& in) : in_(in) {}
 
   std::vector<CornerTable> read(std::size_t most) {
     const std::uint32_t traversal = in_.byte();
@@ -218,7 +218,7 @@ class Edgebreaker {
     return tables;
   }
 
-  Bytes& in_;
+  StreamBytes& in_;
   std::uint32_t faces_ = 0, count_ = 0;  // of triangles; of those that have a symbol
   Symbols symbols_;
   std::vector<Split> splits_;                           // by source
@@ -230,6 +230,6 @@ class Edgebreaker {
 
 }  // namespace
 
-std::vector<CornerTable> read_edgebreaker(Bytes& in, std::size_t most) { return Edgebreaker(in).read(most); }
+std::vector<CornerTable> read_edgebreaker(StreamBytes& in, std::size_t most) { return Edgebreaker(in).read(most); }
 
 }  // namespace apps::intake::draco

@@ -8,13 +8,13 @@
 #include <cstdint>
 #include <vector>
 
-#include "apps/intake/draco_bytes.hpp"
 #include "apps/intake/draco_corners.hpp"
+#include "apps/intake/stream_bytes.hpp"
 
 namespace apps::intake::draco {
 
 // The corner table of the positions and then those of the attributes with seams, in the order of the stream.
 // A stream is refused if its triangles times its tables are more than `most`.
-[[nodiscard]] std::vector<CornerTable> read_edgebreaker(Bytes& in, std::size_t most);
+[[nodiscard]] std::vector<CornerTable> read_edgebreaker(StreamBytes& in, std::size_t most);
 
 }  // namespace apps::intake::draco

@@ -30,7 +30,7 @@ class Predictor {
   }
   // The mean of the parallelograms around the vertex, at most four, without those whose edge is a crease. Each number of parallelograms
   // has its own list of bits that say which edges are; `used` counts those that were looked at.
-  [[nodiscard]] bool add_parallelograms(std::size_t entry, const Bytes& in,
+  [[nodiscard]] bool add_parallelograms(std::size_t entry, const StreamBytes& in,
                                         const std::array<std::vector<bool>, most_parallelograms>& creases,
                                         std::array<std::size_t, most_parallelograms>& used, std::vector<std::int64_t>& sum) {
     const CornerTable& table = around_.table;
@@ -61,7 +61,8 @@ class Predictor {
 
   // Texture coordinates: the triangle in the plane of the picture is similar to the one in space (specification, TexCoords Prediction
   // Decoder). `turned`, from the back: on which side of the known edge its third vertex lies. All products are modulo 2^64.
-  [[nodiscard]] bool add_similar(std::size_t entry, const Bytes& in, std::vector<bool>& turned, std::vector<std::int64_t>& sum) const {
+  [[nodiscard]] bool add_similar(std::size_t entry, const StreamBytes& in, std::vector<bool>& turned,
+                                 std::vector<std::int64_t>& sum) const {
     using Word = std::uint64_t;
     const std::uint32_t corner = around_.sequence.corner_of_entry[entry];
     const std::size_t a = entry_at(next(corner)), b = entry_at(previous(corner));
@@ -115,7 +116,7 @@ class Predictor {
   std::array<std::vector<std::int64_t>, most_parallelograms> found_;
 };
 
-std::vector<bool> read_bits(Bytes& in, std::size_t count) {
+std::vector<bool> read_bits(StreamBytes& in, std::size_t count) {
   std::vector<bool> bits(count);
   BitDecoder decoder(in);
   for (std::size_t i = 0; i < count; ++i) { bits[i] = decoder.next(); }
@@ -124,7 +125,7 @@ std::vector<bool> read_bits(Bytes& in, std::size_t count) {
 
 // The range of all values: a prediction is clamped to it, and a sum beyond it is meant modulo its size (specification, wrap transform).
 struct Wrap {
-  explicit Wrap(Bytes& in) : least(in.int32()), most(in.int32()) {
+  explicit Wrap(StreamBytes& in) : least(in.int32()), most(in.int32()) {
     if (least > most) { in.refuse("the range of an attribute is empty"); }
   }
   [[nodiscard]] std::int32_t sum(std::int64_t predicted, std::int32_t difference) const {
@@ -138,7 +139,7 @@ struct Wrap {
 
 }  // namespace
 
-void undo_prediction(Bytes& in, Prediction prediction, const Surroundings* around, std::size_t components,
+void undo_prediction(StreamBytes& in, Prediction prediction, const Surroundings* around, std::size_t components,
                      std::vector<std::int32_t>& values) {
   const std::size_t entries = values.size() / components;
   std::array<std::vector<bool>, most_parallelograms> creases;
@@ -180,7 +181,7 @@ void undo_prediction(Bytes& in, Prediction prediction, const Surroundings* aroun
   }
 }
 
-void skip_normal_prediction(Bytes& in, Prediction prediction) {
+void skip_normal_prediction(StreamBytes& in, Prediction prediction) {
   static_cast<void>(in.take(8));  // the largest quantized value and the centre
   if (prediction != Prediction::geometric_normal) { return; }
   static_cast<void>(in.byte());

@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "apps/intake/draco_bytes.hpp"
 #include "apps/intake/draco_corners.hpp"
+#include "apps/intake/stream_bytes.hpp"
 
 namespace apps::intake::draco {
 
@@ -30,10 +30,10 @@ enum class Prediction : std::int8_t {
 };
 
 // Reads what the prediction needs, then replaces differences by values, in place. `around`: null for sequential meshes.
-void undo_prediction(Bytes& in, Prediction prediction, const Surroundings* around, std::size_t components,
+void undo_prediction(StreamBytes& in, Prediction prediction, const Surroundings* around, std::size_t components,
                      std::vector<std::int32_t>& values);
 
 // Passes over what belongs to predicted normals.
-void skip_normal_prediction(Bytes& in, Prediction prediction);
+void skip_normal_prediction(StreamBytes& in, Prediction prediction);
 
 }  // namespace apps::intake::draco

@@ -9,7 +9,7 @@ namespace {
 // Symbols with the probabilities of a table, in units of 2^-precision_bits. The constructor reads the table and the coded bytes.
 class SymbolDecoder {
  public:
-  SymbolDecoder(Bytes& in, unsigned precision_bits)
+  SymbolDecoder(StreamBytes& in, unsigned precision_bits)
       : precision_bits_(precision_bits), first_(table(in, precision_bits)), rans_(in, in.take(in.varint()), 4U << precision_bits) {}
 
   [[nodiscard]] std::uint32_t next() {
@@ -22,7 +22,7 @@ class SymbolDecoder {
 
  private:
   // The sum of the probabilities of all symbols before each one, and then of all.
-  [[nodiscard]] static std::vector<std::uint32_t> table(Bytes& in, unsigned precision_bits) {
+  [[nodiscard]] static std::vector<std::uint32_t> table(StreamBytes& in, unsigned precision_bits) {
     const std::uint32_t symbols = in.varint();
     if (symbols / 64 > in.left()) { in.refuse("a table has more symbols than bytes can describe"); }  // a byte describes at most 64
     std::vector<std::uint32_t> first{0};
@@ -50,7 +50,7 @@ class SymbolDecoder {
 
 }  // namespace
 
-Rans::Rans(const Bytes& in, std::string_view data, std::uint32_t lowest_state) : bytes(data), lowest(lowest_state) {
+Rans::Rans(const StreamBytes& in, std::string_view data, std::uint32_t lowest_state) : bytes(data), lowest(lowest_state) {
   if (data.empty()) { in.refuse("coded numbers have no bytes"); }
   const std::size_t size = 1 + (static_cast<unsigned char>(data.back()) >> 6U);  // the two highest bits: bytes of the first state, less 1
   if (size > data.size()) { in.refuse("coded numbers have too few bytes"); }
@@ -67,7 +67,7 @@ bool BitDecoder::next() {
   return one;
 }
 
-std::vector<std::uint32_t> read_symbols(Bytes& in, std::size_t count, std::size_t components) {
+std::vector<std::uint32_t> read_symbols(StreamBytes& in, std::size_t count, std::size_t components) {
   std::vector<std::uint32_t> numbers;
   if (count == 0) { return numbers; }
   const std::uint32_t scheme = in.byte();

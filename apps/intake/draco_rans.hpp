@@ -9,12 +9,12 @@
 #include <string_view>
 #include <vector>
 
-#include "apps/intake/draco_bytes.hpp"
+#include "apps/intake/stream_bytes.hpp"
 
 namespace apps::intake::draco {
 
 struct Rans {
-  Rans(const Bytes& in, std::string_view data, std::uint32_t lowest_state);
+  Rans(const StreamBytes& in, std::string_view data, std::uint32_t lowest_state);
   void refill() {
     while (state < lowest && !bytes.empty()) {
       state = state << 8U | static_cast<unsigned char>(bytes.back());
@@ -29,16 +29,16 @@ struct Rans {
 // Bits that are all zero with the same probability (specification, RabsDescRead). The constructor reads probability, size and bytes.
 class BitDecoder {
  public:
-  explicit BitDecoder(Bytes& in) : BitDecoder(in, in.byte()) {}
+  explicit BitDecoder(StreamBytes& in) : BitDecoder(in, in.byte()) {}
   [[nodiscard]] bool next();
 
  private:
-  BitDecoder(Bytes& in, std::uint32_t zero) : one_(256 - zero), rans_(in, in.take(in.varint()), 4096) {}
+  BitDecoder(StreamBytes& in, std::uint32_t zero) : one_(256 - zero), rans_(in, in.take(in.varint()), 4096) {}
   std::uint32_t one_;  // probability of a one, in 1/256
   Rans rans_;
 };
 
 // `count` numbers, `components` of which belong together (specification, DecodeSymbols).
-[[nodiscard]] std::vector<std::uint32_t> read_symbols(Bytes& in, std::size_t count, std::size_t components);
+[[nodiscard]] std::vector<std::uint32_t> read_symbols(StreamBytes& in, std::size_t count, std::size_t components);
 
 }  // namespace apps::intake::draco

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// glTF 2.0, as text (.gltf) and as binary (.glb): nodes with their matrices, triangles, also of meshes compressed by Draco, skins in the
-// pose of the file, materials, cameras, lights. Morphs and meshes compressed otherwise are ignored with a note. A file that requires an
-// unknown extension is not refused: all geometry that can be read is read.
+// glTF 2.0, as text (.gltf) and as binary (.glb): nodes with their matrices, triangles, skins in the pose of the file, materials, cameras,
+// lights; also where Draco or meshopt compresses them. Morphs are ignored with a note. A file that requires an unknown extension is not
+// refused: all geometry that can be read is read.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -152,18 +152,6 @@ class GltfReader {
     }
   }
 
-  // The extension that compresses the buffer views of a primitive, for which there is no reader; nothing if none does.
-  [[nodiscard]] std::optional<std::string_view> compression(const JsonValue& primitive) const {
-    for (const JsonValue* const accessor : {&primitive["attributes"]["POSITION"], &primitive["indices"]}) {
-      const JsonValue& view = (*root_)["accessors"][accessor->index().value_or(nowhere)]["bufferView"];
-      const JsonValue& extensions = (*root_)["bufferViews"][view.index().value_or(nowhere)]["extensions"];
-      for (const std::string_view packed : {"EXT_meshopt_compression", "KHR_meshopt_compression"}) {
-        if (extensions[packed]) { return packed; }
-      }
-    }
-    return std::nullopt;
-  }
-
   // The matrix of each vertex of a skinned primitive; nothing for others.
   [[nodiscard]] std::optional<std::vector<glm::dmat4>> skin_matrices(const JsonValue& primitive, const JsonValue& skin,
                                                                      std::size_t vertices, std::string& fault) {
@@ -182,9 +170,6 @@ class GltfReader {
     const std::string place = "in " + mesh_file::shown(model_.groups[group]);
     std::size_t mode = primitive["mode"] ? primitive["mode"].index().value_or(nowhere) : 4;
     if (mode < 4 || mode > 6) { return pass_over("points and lines have no surface: left out", place); }
-    if (const auto packed = compression(primitive)) {
-      return pass_over("meshes compressed by " + std::string(*packed) + " are not read: left out", place);
-    }
     if (primitive["targets"]) { notes_.add("morph targets are not read: meshes stand as they are drawn", place); }
     std::string fault;
     const auto unpacked = data_->unpack(primitive, fault);

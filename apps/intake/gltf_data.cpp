@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "apps/bytes.hpp"
+#include "apps/intake/meshopt.hpp"
 #include "apps/mesh_file/reading.hpp"
 
 namespace apps::intake {
@@ -95,13 +96,30 @@ std::optional<std::string_view> GltfData::buffer(std::size_t index, std::string&
 
 std::optional<std::string_view> GltfData::view(const JsonValue& index, std::string& fault) {
   const JsonValue& view = root_["bufferViews"][index.index().value_or(nowhere)];
-  const auto bytes = buffer(view["buffer"].index().value_or(nowhere), fault);
-  const std::size_t begin = view["byteOffset"].index().value_or(0), length = view["byteLength"].index().value_or(0);
-  if (!bytes || begin > bytes->size() || length > bytes->size() - begin) {
-    if (bytes) { fault = "a view reaches beyond its buffer"; }
+  const auto part = [&](const JsonValue& place) -> std::optional<std::string_view> {
+    const auto bytes = buffer(place["buffer"].index().value_or(nowhere), fault);
+    const std::size_t begin = place["byteOffset"].index().value_or(0), length = place["byteLength"].index().value_or(0);
+    if (!bytes) { return std::nullopt; }
+    if (begin <= bytes->size() && length <= bytes->size() - begin) { return bytes->substr(begin, length); }
+    fault = "its view reaches beyond its buffer";
     return std::nullopt;
+  };
+  const JsonValue& ratified = view["extensions"]["EXT_meshopt_compression"];
+  const JsonValue& packed = ratified ? ratified : view["extensions"]["KHR_meshopt_compression"];
+  if (!packed) { return part(view); }
+  const auto [found, is_new] = views_.try_emplace(*index.index());
+  if (is_new) {
+    const auto bytes = part(packed);
+    const auto number = [&](std::string_view name) { return packed[name].index().value_or(0); };
+    const MeshoptView described{packed["mode"].string(), packed["filter"].string(), number("count"), number("byteStride")};
+    auto unpacked = bytes ? unpack_meshopt(*bytes, described, fault) : std::nullopt;
+    if (!unpacked) {
+      views_.erase(found);
+      return std::nullopt;
+    }
+    found->second = std::move(*unpacked);
   }
-  return bytes->substr(begin, length);
+  return found->second;
 }
 
 std::optional<bool> GltfData::unpack(const JsonValue& primitive, std::string& fault) {
@@ -168,18 +186,17 @@ bool GltfData::elements(const Elements& at, std::vector<double>& out, std::strin
   if (!type) { return fail(at.who + ": the type of numbers is missing"); }
   const JsonValue& view = root_["bufferViews"][at.place["bufferView"].index().value_or(nowhere)];
   if (!view) { return fail(at.who + " names a view that does not exist"); }
-  const auto bytes = buffer(view["buffer"].index().value_or(nowhere), fault);
-  if (!bytes) { return false; }
+  const auto bytes = this->view(at.place["bufferView"], fault);
+  if (!bytes) { return fail(at.who + ": " + fault); }
   const std::size_t element = type->size * at.components, stride = view["byteStride"] ? or_zero(view["byteStride"]) : element;
-  const std::size_t begin = or_zero(view["byteOffset"]), length = or_zero(view["byteLength"]), first = or_zero(at.place["byteOffset"]);
-  if (begin > bytes->size() || length > bytes->size() - begin) { return fail(at.who + ": its view reaches beyond its buffer"); }
+  const std::size_t first = or_zero(at.place["byteOffset"]);
   // All numbers are below 2^32, so nothing overflows.
-  if (at.count > 0 && (stride < element || first + (at.count - 1) * stride + element > length)) {
+  if (at.count > 0 && (stride < element || first + (at.count - 1) * stride + element > bytes->size())) {
     return fail(at.who + " reaches beyond its view");
   }
   out.reserve(at.count * at.components);
   for (std::size_t i = 0; i < at.count; ++i) {
-    const std::size_t number = begin + first + i * stride;
+    const std::size_t number = first + i * stride;
     for (std::size_t k = 0; k < at.components; ++k) { out.push_back(number_at(*bytes, number + k * type->size, *type, at.normalized)); }
   }
   return true;

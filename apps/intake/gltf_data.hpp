@@ -3,7 +3,7 @@
 
 // The numbers of a glTF file: buffers (the binary chunk of a GLB, data in the text itself, files beside it) and the accessors that
 // describe their contents. Access beyond a buffer is an error. No allocation exceeds the number of existing bytes, except for accessors
-// without data, which are zeros, and for compressed meshes. A sparse accessor has some of its elements replaced.
+// without data, which are zeros, and for what is compressed. A sparse accessor has some of its elements replaced.
 
 #include <array>
 #include <cstddef>
@@ -61,7 +61,7 @@ class GltfData {
   };
 
   [[nodiscard]] std::optional<std::string_view> buffer(std::size_t index, std::string& fault);
-  // The bytes of a buffer view.
+  // The bytes of a buffer view, without compression.
   [[nodiscard]] std::optional<std::string_view> view(const JsonValue& index, std::string& fault);
   // Appends the numbers of these elements to `out`.
   [[nodiscard]] bool elements(const Elements& at, std::vector<double>& out, std::string& fault);
@@ -76,6 +76,7 @@ class GltfData {
     std::size_t components;
     std::vector<double> numbers;
   };
+  std::map<std::size_t, std::string> views_;   // that were compressed
   std::map<std::size_t, draco::Mesh> meshes_;  // compressed ones, by their buffer view
   std::map<std::size_t, Unpacked> unpacked_;   // by accessor
 };

@@ -2,12 +2,10 @@
 // Draco: one mesh in all encodings, what is damaged, and glTF files with compressed meshes.
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <fstream>
 #include <iterator>
-#include <numbers>
 #include <random>
 #include <set>
 #include <string>
@@ -17,6 +15,7 @@
 #include "apps/intake/draco.hpp"
 #include "gltf_sample.hpp"
 #include "models.hpp"
+#include "torus.hpp"
 
 namespace draco = apps::intake::draco;
 using gltf_sample::put;
@@ -25,8 +24,8 @@ using models::read;
 
 namespace {
 
-// A torus of n x n quads with windows, each quad cut in two. Its texture coordinates are (i / n, j / n), so each corner tells its place in
-// the grid. Positions have 8 bits (tests/data/README.md).
+// A torus whose texture coordinates are (i / n, j / n), so that each corner tells its place in the grid. Positions have 8 bits
+// (tests/data/README.md).
 struct File {
   std::string name;
   int n;
@@ -50,28 +49,6 @@ draco::Mesh mesh_of(const File& file) {
   CAPTURE(file.name, fault);
   REQUIRE(mesh);
   return *mesh;
-}
-
-using Place = std::array<int, 2>;
-using Triangle = std::array<Place, 3>;
-
-// The same triangle with its smallest corner first.
-Triangle turned(Triangle t) {
-  std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
-  return t;
-}
-
-std::multiset<Triangle> torus(int n) {
-  std::multiset<Triangle> triangles;
-  for (int i = 0; i < n; ++i) {
-    for (int j = 0; j < n; ++j) {
-      if (3 * i < n && 3 * j < n && (i + j) % 2 == 1) { continue; }  // a window; some touch at their corners
-      const Place a{i, j}, b{i + 1, j}, c{i + 1, j + 1}, d{i, j + 1};
-      triangles.insert(turned({a, b, c}));
-      triangles.insert(turned({a, c, d}));
-    }
-  }
-  return triangles;
 }
 
 // A stream without any compression: sequential, the numbers as they are in memory.
@@ -147,20 +124,21 @@ TEST_CASE("Draco: each encoding of a torus has its triangles, with all corners w
     REQUIRE(mesh.attributes.size() == 3);
     const draco::Attribute &positions = mesh.attributes[0], &places = mesh.attributes[1];
     REQUIRE((positions.components == 3 && places.components == 2));
-    std::vector<Place> corners;
+    std::vector<torus::Place> corners;
     double largest = 0.0;
     for (const std::uint32_t point : mesh.corners) {
       REQUIRE(point < mesh.points);
       const auto at = [&](std::size_t k) { return static_cast<int>(std::lround(file.n * places.values[2 * point + k])); };
       corners.push_back({at(0), at(1)});
-      const double u = 2.0 * std::numbers::pi * at(0) / file.n, v = 2.0 * std::numbers::pi * at(1) / file.n;
-      const std::array expected{(2.0 + std::cos(v)) * std::cos(u), (2.0 + std::cos(v)) * std::sin(u), std::sin(v)};
-      for (std::size_t k = 0; k < 3; ++k) { largest = std::max(largest, std::abs(positions.values[3 * point + k] - expected[k])); }
+      const glm::dvec3 expected = torus::position(file.n, corners.back());
+      for (int k = 0; k < 3; ++k) {
+        largest = std::max(largest, std::abs(positions.values[3 * point + static_cast<std::size_t>(k)] - expected[k]));
+      }
     }
     CHECK(largest <= 0.5 * 6.0 / 255.0 + 1e-6);
-    std::multiset<Triangle> triangles;
-    for (std::size_t i = 0; i < corners.size(); i += 3) { triangles.insert(turned({corners[i], corners[i + 1], corners[i + 2]})); }
-    CHECK(triangles == torus(file.n));
+    std::multiset<torus::Triangle> triangles;
+    for (std::size_t i = 0; i < corners.size(); i += 3) { triangles.insert(torus::turned({corners[i], corners[i + 1], corners[i + 2]})); }
+    CHECK(triangles == torus::triangles(file.n, false));
   }
 }
 

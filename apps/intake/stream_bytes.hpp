@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The bytes of a Draco stream, read from front to back. A read beyond the end, and anything else that cannot be right, leaves the decoder
-// by an exception, which read_draco() turns into a sentence: the stream is nested too deeply to hand every failure from call to call.
+// The bytes of compressed numbers, read from front to back. A read beyond the end, and anything else that cannot be right, leaves the
+// decoder by an exception, which its entry (draco::read_mesh, unpack_meshopt) turns into a sentence: the formats are nested too deeply to
+// hand every failure from call to call.
 
 #include <algorithm>
 #include <bit>
@@ -14,18 +15,18 @@
 
 #include "apps/bytes.hpp"
 
-namespace apps::intake::draco {
+namespace apps::intake {
 
-struct Fault {
+struct StreamFault {
   std::string sentence;
   std::size_t offset;  // of the byte at which the decoder stood
 };
 
-class Bytes {
+class StreamBytes {
  public:
-  explicit Bytes(std::string_view bytes, std::size_t offset = 0) : bytes_(bytes), offset_(offset) {}
+  explicit StreamBytes(std::string_view bytes, std::size_t offset = 0) : bytes_(bytes), offset_(offset) {}
 
-  [[noreturn]] void refuse(std::string sentence) const { throw Fault{std::move(sentence), offset_ + at_}; }
+  [[noreturn]] void refuse(std::string sentence) const { throw StreamFault{std::move(sentence), offset_ + at_}; }
   [[nodiscard]] std::size_t left() const { return bytes_.size() - at_; }
 
   [[nodiscard]] std::string_view take(std::uint64_t size) {
@@ -34,9 +35,9 @@ class Bytes {
     return bytes_.substr(at_ - static_cast<std::size_t>(size), static_cast<std::size_t>(size));
   }
   // The next bytes, as a stream of their own.
-  [[nodiscard]] Bytes part(std::uint64_t size) {
+  [[nodiscard]] StreamBytes part(std::uint64_t size) {
     const std::size_t begin = offset_ + at_;
-    return Bytes(take(size), begin);
+    return StreamBytes(take(size), begin);
   }
 
   [[nodiscard]] std::uint32_t byte() { return static_cast<unsigned char>(take(1)[0]); }
@@ -81,4 +82,4 @@ class Bytes {
   unsigned bits_left_ = 0;
 };
 
-}  // namespace apps::intake::draco
+}  // namespace apps::intake
