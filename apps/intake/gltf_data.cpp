@@ -14,7 +14,8 @@
 namespace apps::intake {
 namespace {
 
-constexpr std::size_t most_zeros = 1'000'000;  // of an accessor without data
+constexpr std::size_t most_zeros = 1'000'000;         // of an accessor without data
+constexpr std::size_t most_unpacked = 2'000'000'000;  // bytes of all compressed views
 
 // Decodes "data:image/png;base64,AAAA"; nothing if the URI has another form.
 std::optional<std::string> data_of(std::string_view uri) {
@@ -104,16 +105,20 @@ std::optional<std::string_view> GltfData::view(const JsonValue& index, std::stri
     fault = "its view reaches beyond its buffer";
     return std::nullopt;
   };
-  const JsonValue& ratified = view["extensions"]["EXT_meshopt_compression"];
-  const JsonValue& packed = ratified ? ratified : view["extensions"]["KHR_meshopt_compression"];
+  const JsonValue& extensions = view["extensions"];
+  const JsonValue& packed = extensions[extensions["EXT_meshopt_compression"] ? "EXT_meshopt_compression" : "KHR_meshopt_compression"];
   if (!packed) { return part(view); }
   const auto [found, is_new] = views_.try_emplace(*index.index());
   if (is_new) {
     const auto bytes = part(packed);
     const auto number = [&](std::string_view name) { return packed[name].index().value_or(0); };
     const MeshoptView described{packed["mode"].string(), packed["filter"].string(), number("count"), number("byteStride")};
-    auto unpacked = bytes ? unpack_meshopt(*bytes, described, fault) : std::nullopt;
+    unpacked_bytes_ += described.count * described.stride;  // each below 2^32
+    const bool fits = unpacked_bytes_ <= most_unpacked;
+    if (!fits) { fault = "the compressed views have more than " + std::to_string(most_unpacked) + " bytes"; }
+    auto unpacked = bytes && fits ? unpack_meshopt(*bytes, described, fault) : std::nullopt;
     if (!unpacked) {
+      unpacked_bytes_ -= described.count * described.stride;
       views_.erase(found);
       return std::nullopt;
     }
@@ -184,12 +189,12 @@ bool GltfData::elements(const Elements& at, std::vector<double>& out, std::strin
   const auto or_zero = [](const JsonValue& value) { return value.index().value_or(0); };
   const auto type = component_type(at.component_type);
   if (!type) { return fail(at.who + ": the type of numbers is missing"); }
-  const JsonValue& view = root_["bufferViews"][at.place["bufferView"].index().value_or(nowhere)];
-  if (!view) { return fail(at.who + " names a view that does not exist"); }
-  const auto bytes = this->view(at.place["bufferView"], fault);
+  const JsonValue& described = root_["bufferViews"][at.place["bufferView"].index().value_or(nowhere)];
+  if (!described) { return fail(at.who + " names a view that does not exist"); }
+  const auto bytes = view(at.place["bufferView"], fault);
   if (!bytes) { return fail(at.who + ": " + fault); }
-  const std::size_t element = type->size * at.components, stride = view["byteStride"] ? or_zero(view["byteStride"]) : element;
-  const std::size_t first = or_zero(at.place["byteOffset"]);
+  const std::size_t element = type->size * at.components, first = or_zero(at.place["byteOffset"]);
+  const std::size_t stride = described["byteStride"] ? or_zero(described["byteStride"]) : element;
   // All numbers are below 2^32, so nothing overflows.
   if (at.count > 0 && (stride < element || first + (at.count - 1) * stride + element > bytes->size())) {
     return fail(at.who + " reaches beyond its view");

@@ -59,6 +59,10 @@ class GltfData {
     std::size_t count, components;
     bool normalized;
   };
+  struct Unpacked {
+    std::size_t components;
+    std::vector<double> numbers;
+  };
 
   [[nodiscard]] std::optional<std::string_view> buffer(std::size_t index, std::string& fault);
   // The bytes of a buffer view, without compression.
@@ -72,11 +76,8 @@ class GltfData {
   std::optional<std::string_view> binary_;
   const SideFile& side_file_;
   std::vector<std::optional<std::string>> loaded_;
-  struct Unpacked {
-    std::size_t components;
-    std::vector<double> numbers;
-  };
   std::map<std::size_t, std::string> views_;   // that were compressed
+  std::size_t unpacked_bytes_ = 0;             // of them
   std::map<std::size_t, draco::Mesh> meshes_;  // compressed ones, by their buffer view
   std::map<std::size_t, Unpacked> unpacked_;   // by accessor
 };

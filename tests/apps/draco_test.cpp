@@ -152,7 +152,7 @@ TEST_CASE("Draco: damaged streams end in a mesh or in a refusal") {
     for (int run = 0; run < 200; ++run) {
       std::string damaged = stream;
       if (run % 4 == 0) { damaged.resize(random() % stream.size()); }
-      for (std::size_t flips = run % 4; flips > 0; --flips) {
+      for (int flips = run % 4; flips > 0; --flips) {
         char& byte = damaged[random() % damaged.size()];
         byte = static_cast<char>(static_cast<unsigned char>(byte) ^ 1U << random() % 8);
       }

@@ -32,7 +32,7 @@ T zigzag(T v) {
 }
 
 void put_varint(std::string& out, std::uint32_t value) {
-  for (; value > 127; value >>= 7U) { out += static_cast<char>(value & 127U | 128U); }
+  for (; value > 127; value >>= 7U) { out += static_cast<char>((value & 127U) | 128U); }
   out += static_cast<char>(value);
 }
 
@@ -133,7 +133,7 @@ TEST_CASE("meshopt: damaged views end in the bytes announced or in a refusal") {
     for (int run = 0; run < 40; ++run) {
       std::string damaged = stream.bytes;
       if (run % 4 == 0) { damaged.resize(random() % damaged.size()); }
-      for (std::size_t flips = run % 4; flips > 0; --flips) {
+      for (int flips = run % 4; flips > 0; --flips) {
         char& byte = damaged[random() % damaged.size()];
         byte = static_cast<char>(static_cast<unsigned char>(byte) ^ 1U << random() % 8);
       }
