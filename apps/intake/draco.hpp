@@ -2,7 +2,8 @@
 #pragma once
 
 // Meshes compressed by Draco (https://google.github.io/draco/spec, bitstream 2.2, the one that glTF allows): sequential and Edgebreaker
-// connectivity. Damaged streams are refused: all reads stay inside of the bytes, and the memory is bounded by a multiple of their number.
+// connectivity. Damaged streams are refused: all reads stay inside of the bytes, and the memory is bounded by that of a million triangles
+// and a multiple of the bytes.
 
 #include <cstddef>
 #include <cstdint>

@@ -13,13 +13,14 @@
 namespace apps::intake::draco {
 namespace {
 
-// What lies around the new triangle, whose third vertex is opposite to the edge it is glued to:
+// How the next triangle is glued to the mesh. Triangles grow at the active edge, which lies opposite to the active corner a; after each
+// symbol one of the other two edges of the new triangle is active.
 enum class Symbol : std::uint8_t {
-  c = 0,  // the third vertex is inside of the mesh from now on: the triangle closes the gap between two edges
-  s = 1,  // the triangle joins two boundaries
-  l = 3,  // the edge right of the third vertex, which is new, is a boundary ...
-  r = 5,  // ... and here the left one
-  e = 7,  // the triangle is glued to nothing
+  c = 0,  // it fills the gap between two boundary edges, whose common vertex is inside of the mesh from now on
+  s = 1,  // it joins the two latest active edges
+  l = 3,  // its third vertex is new, and the active edge runs from there to the vertex at previous(a) ...
+  r = 5,  // ... or to that at next(a)
+  e = 7,  // it is glued to nothing: all its vertices are new
 };
 
 // The symbols in the order of the decoder.
