@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // glTF 2.0, as text (.gltf) and as binary (.glb): nodes with their matrices, triangles, skins in the pose of the file, materials, cameras,
-// lights. Morphs and compressed meshes are ignored with a note. A file that requires an unknown extension is not refused: all geometry
-// that can be read is read.
+// lights; also where Draco or meshopt compresses them. Morphs are ignored with a note. A file that requires an unknown extension is not
+// refused: all geometry that can be read is read.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -25,7 +25,6 @@ namespace apps::intake {
 namespace {
 
 constexpr std::size_t most_polygons = 20'000'000;  // over all uses of all meshes
-constexpr std::size_t nowhere = ~std::size_t{0};
 
 class GltfReader {
  public:
@@ -153,20 +152,6 @@ class GltfReader {
     }
   }
 
-  // The extension that compresses the numbers of a primitive, either its own or that of the buffer views it uses; nothing if none does.
-  [[nodiscard]] std::optional<std::string_view> compression(const JsonValue& primitive) const {
-    constexpr std::string_view draco = "KHR_draco_mesh_compression";
-    if (primitive["extensions"][draco]) { return draco; }
-    for (const JsonValue* const accessor : {&primitive["attributes"]["POSITION"], &primitive["indices"]}) {
-      const JsonValue& view = (*root_)["accessors"][accessor->index().value_or(nowhere)]["bufferView"];
-      const JsonValue& extensions = (*root_)["bufferViews"][view.index().value_or(nowhere)]["extensions"];
-      for (const std::string_view packed : {"EXT_meshopt_compression", "KHR_meshopt_compression"}) {
-        if (extensions[packed]) { return packed; }
-      }
-    }
-    return std::nullopt;
-  }
-
   // The matrix of each vertex of a skinned primitive; nothing for others.
   [[nodiscard]] std::optional<std::vector<glm::dmat4>> skin_matrices(const JsonValue& primitive, const JsonValue& skin,
                                                                      std::size_t vertices, std::string& fault) {
@@ -183,16 +168,15 @@ class GltfReader {
 
   void triangles(const JsonValue& primitive, const JsonValue& skin, const glm::dmat4& matrix, std::uint32_t group) {
     const std::string place = "in " + mesh_file::shown(model_.groups[group]);
-    const std::size_t mode = primitive["mode"] ? primitive["mode"].index().value_or(nowhere) : 4;
+    std::size_t mode = primitive["mode"] ? primitive["mode"].index().value_or(nowhere) : 4;
     if (mode < 4 || mode > 6) { return pass_over("points and lines have no surface: left out", place); }
-    if (const auto packed = compression(primitive)) {
-      return pass_over("meshes compressed by " + std::string(*packed) + " are not read: left out", place);
-    }
     if (primitive["targets"]) { notes_.add("morph targets are not read: meshes stand as they are drawn", place); }
     std::string fault;
-    const auto positions = data_->numbers(primitive["attributes"]["POSITION"], 3, fault);
+    const auto unpacked = data_->unpack(primitive, fault);
+    const auto positions = unpacked ? data_->numbers(primitive["attributes"]["POSITION"], 3, fault) : std::nullopt;
     const auto given = positions && primitive["indices"] ? data_->numbers(primitive["indices"], 1, fault) : std::nullopt;
     if (!fault.empty()) { return error(primitive.offset(), fault); }
+    if (*unpacked) { mode = 4; }  // a compressed mesh is a list of triangles
     const auto material = primitive["material"].index();
     if (primitive["material"] && (!material || *material >= default_material_)) {
       return error(primitive["material"].offset(), "there is no such material");

@@ -3,19 +3,23 @@
 
 // The numbers of a glTF file: buffers (the binary chunk of a GLB, data in the text itself, files beside it) and the accessors that
 // describe their contents. Access beyond a buffer is an error. No allocation exceeds the number of existing bytes, except for accessors
-// without data, which are zeros. A sparse accessor has some of its elements replaced.
+// without data, which are zeros, and for what is compressed. A sparse accessor has some of its elements replaced.
 
 #include <array>
 #include <cstddef>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "apps/intake/draco.hpp"
 #include "apps/intake/json_reader.hpp"
 #include "apps/intake/model.hpp"
 
 namespace apps::intake {
+
+inline constexpr std::size_t nowhere = ~std::size_t{0};  // the index of nothing
 
 // The first `count` numbers of an array; nothing if there are fewer.
 template <std::size_t count>
@@ -39,6 +43,10 @@ class GltfData {
   // nothing, and a sentence in `fault`.
   [[nodiscard]] std::optional<std::vector<double>> numbers(const JsonValue& accessor_index, std::size_t components, std::string& fault);
 
+  // KHR_draco_mesh_compression: from now on, until the next call, the accessors of this primitive have the numbers of its compressed mesh.
+  // Does it have one? After an error nothing, and a sentence in `fault`.
+  [[nodiscard]] std::optional<bool> unpack(const JsonValue& primitive, std::string& fault);
+
   // The bytes of a picture, wherever they are; nothing if they cannot be found.
   [[nodiscard]] std::optional<std::string> picture(std::size_t image);
 
@@ -51,8 +59,14 @@ class GltfData {
     std::size_t count, components;
     bool normalized;
   };
+  struct Unpacked {
+    std::size_t components;
+    std::vector<double> numbers;
+  };
 
   [[nodiscard]] std::optional<std::string_view> buffer(std::size_t index, std::string& fault);
+  // The bytes of a buffer view, without compression.
+  [[nodiscard]] std::optional<std::string_view> view(const JsonValue& index, std::string& fault);
   // Appends the numbers of these elements to `out`.
   [[nodiscard]] bool elements(const Elements& at, std::vector<double>& out, std::string& fault);
   // Replaces the elements of an accessor that its member `sparse` names; `at` describes all elements of the accessor.
@@ -62,6 +76,10 @@ class GltfData {
   std::optional<std::string_view> binary_;
   const SideFile& side_file_;
   std::vector<std::optional<std::string>> loaded_;
+  std::map<std::size_t, std::string> views_;   // that were compressed
+  std::size_t unpacked_bytes_ = 0;             // of them
+  std::map<std::size_t, draco::Mesh> meshes_;  // compressed ones, by their buffer view
+  std::map<std::size_t, Unpacked> unpacked_;   // by accessor
 };
 
 // A URI such as "a%20b.bin" as a file name; nothing if it does not name a file beside this one.

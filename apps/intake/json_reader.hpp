@@ -23,6 +23,7 @@ class JsonValue {
   [[nodiscard]] const JsonValue& operator[](std::string_view key) const;
   [[nodiscard]] const JsonValue& operator[](std::size_t index) const;
   [[nodiscard]] const std::vector<JsonValue>& items() const { return items_; }  // of arrays and objects
+  [[nodiscard]] const std::vector<std::string>& keys() const { return keys_; }  // of objects, one for each item
   [[nodiscard]] explicit operator bool() const { return kind_ != Kind::null; }
 
   [[nodiscard]] double number(double otherwise = 0.0) const { return kind_ == Kind::number ? number_ : otherwise; }

@@ -105,19 +105,3 @@ TEST_CASE("glTF: instances of a mesh are where nodes of their own would be") {
     CHECK(one.corners == other.corners);
   }
 }
-
-TEST_CASE("glTF: compressed meshes are left out with the name of what packs them") {
-  for (const std::string packed : {"KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_meshopt_compression"}) {
-    Sample sample;
-    const std::string extension = "\"extensions\": {\"" + packed + "\": {\"buffer\": 0}}, ";
-    if (packed.starts_with("KHR_draco")) {
-      sample.primitive.insert(1, extension);
-    } else {  // of the views, whose bytes lie in a buffer that is not there
-      sample.views.insert(2, extension);
-      sample.views.replace(sample.views.find("\"buffer\": 0, \"byteLength\""), 11, "\"buffer\": 1");
-    }
-    const std::string told = models::error("a.gltf", sample.embedded());
-    CAPTURE(packed, told);
-    CHECK(told.find("meshes compressed by " + packed + " are not read") != std::string::npos);
-  }
-}

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// libFuzzer target: the input is read as a scene, as a mesh and as a model of every format, and as the light of a solution; with
-// --format=obj (scene, light, or the ending of another format) as that alone. Nothing crashes; what is refused says why and where; a mesh
-// that is read and written reads back the same; what the intake makes of a model is a sound scene; light that is read is written as it was.
+// libFuzzer target: the input is read as a scene, as a mesh and as a model of every format, as a Draco stream, and as the light of a
+// solution; with --format=obj (scene, light, drc, or the ending of another format) as that alone. Nothing crashes; what is refused says why
+// and where; a mesh that is read and written reads back the same; what the intake makes of a model is a sound scene; light that is read is
+// written as it was.
 
 #include <algorithm>
 #include <cstdint>
@@ -14,6 +15,7 @@
 #include <vector>
 
 #include "apps/bytes.hpp"
+#include "apps/intake/draco.hpp"
 #include "apps/intake/model.hpp"
 #include "apps/intake/to_scene.hpp"
 #include "apps/light_file.hpp"
@@ -60,6 +62,18 @@ void read_as_model(std::string_view text, const apps::ModelFormat& format) {
   const auto file = apps::to_scene(std::move(*result.model), format.up, {}, faults);
   require(file.has_value() == faults.empty(), "either a scene or faults");
   require(!file || radiosity::faults(file->scene).empty(), "what was taken in is sound");
+}
+
+void read_as_draco(std::string_view bytes) {
+  std::string fault;
+  const auto mesh = apps::intake::draco::read_mesh(bytes, fault);
+  require(mesh.has_value() == fault.empty(), "either a mesh or a fault");
+  if (!mesh) { return; }
+  require(std::all_of(mesh->corners.begin(), mesh->corners.end(), [&](std::uint32_t point) { return point < mesh->points; }),
+          "triangles name points that are there");
+  for (const auto& attribute : mesh->attributes) {
+    require(attribute.values.empty() || attribute.values.size() == mesh->points * attribute.components, "a value for each point");
+  }
 }
 
 // The input is what stands between the key and the checksum: chance would find neither.
@@ -109,6 +123,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     require(scene.file.has_value() == scene.errors.empty(), "either a scene or errors");
   }
   if (asked("light")) { read_as_light(text); }
+  if (asked("drc")) { read_as_draco(text); }
   for (const apps::MeshFormat* const format : apps::mesh_formats()) {
     if (asked(format->ending)) { read_as_mesh(text, *format); }
   }
