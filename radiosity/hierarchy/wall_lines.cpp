@@ -30,10 +30,10 @@ namespace radiosity {
 namespace detail {
 
 HALFLIGHT_INLINE std::array<double, 2> WallLine::ends(const SurfaceBRep& brep, const brep::Cut& cut) const {
-  const auto point = [&](brep::HalfedgeId h, double on) {
+  const auto on_side = [&](brep::HalfedgeId h, double on) {
     return (1.0 - on) * brep.data(brep.vertex(h)).position + on * brep.data(brep.target(h)).position;
   };
-  return {at(point(cut.a, cut.on_a)), at(point(cut.b, cut.on_b))};
+  return {at(on_side(cut.a, cut.on_a)), at(on_side(cut.b, cut.on_b))};
 }
 
 HALFLIGHT_INLINE void WallLine::join_intervals(double tolerance) {
