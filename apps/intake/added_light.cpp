@@ -2,9 +2,11 @@
 #include "apps/intake/added_light.hpp"
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include <glm/vec3.hpp>
@@ -22,6 +24,11 @@
 #include "apps/words.hpp"
 
 namespace apps {
+namespace {
+
+constexpr std::size_t most_lamps = 64;  // that are added
+
+}  // namespace
 
 void AddedLight::look_for_light() {
   constexpr std::size_t most_cameras = 16;
@@ -70,7 +77,7 @@ std::vector<raycast::Box> AddedLight::closed_rooms() const {
 std::vector<raycast::Box> AddedLight::rooms_of_cameras() const {
   std::vector<raycast::Box> rooms;
   const LightViews views(file_.scene);
-  for (const radiosity::Camera& camera : file_.cameras) {
+  for (const radiosity::Camera& camera : std::span(file_.cameras).first(std::min(most_lamps, file_.cameras.size()))) {
     const auto around = [&](const raycast::Box& room) { return room.contains(camera.eye); };
     if (std::any_of(rooms.begin(), rooms.end(), around)) { continue; }
     const std::optional<raycast::Box> room = views.room_around(camera.eye);
@@ -81,7 +88,6 @@ std::vector<raycast::Box> AddedLight::rooms_of_cameras() const {
 }
 
 bool AddedLight::add_room_lamps(const std::vector<raycast::Box>& rooms) {
-  constexpr std::size_t most_lamps = 64;
   const LightViews views(file_.scene);
   std::vector<std::shared_ptr<const raycast::Object>> lamps;
   for (std::size_t i = 0; i < std::min(most_lamps, rooms.size()); ++i) {

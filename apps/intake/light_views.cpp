@@ -151,7 +151,7 @@ std::optional<radiosity::Camera> LightViews::inside() const {
 
 std::optional<raycast::Box> LightViews::room_around(const glm::dvec3& eye) const {
   constexpr int directions = 512;
-  constexpr double most_open = 0.1;
+  constexpr double most_open = 0.1;  // a doorway covers a few hundredths of what is seen, a wall or a ceiling that is not there a sixth
   const double golden_angle = std::numbers::pi * (3.0 - std::sqrt(5.0));  // directions of a spiral (Vogel 1979) cover the sphere evenly
   raycast::Box seen;
   int open = 0;
