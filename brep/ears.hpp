@@ -3,8 +3,9 @@
 
 // Triangles of any polygon, planar or not. It is looked at along its mean normal (Newell), and the best ear is cut off again and again
 // (Meisters 1975): the one of which the worse of ear and rest has the best shape, tilt against the mean normal included. So a
-// quadrilateral is cut along the better of its two diagonals. A polygon that crosses itself runs out of ears; then the best corner is cut
-// off although others lie in its triangle.
+// quadrilateral is cut along the better of its two diagonals. A polygon that crosses itself, or comes within rounding of itself, runs out of
+// ears: then the best corner is cut off although others lie in its triangle, and some triangle is turned over in the end. Where that has
+// area, the triangles that overlap least are taken instead.
 
 #include <algorithm>
 #include <array>
@@ -17,6 +18,8 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
+#include <brep/least_overlap.hpp>
+#include <brep/outline.hpp>
 #include <brep/polygon.hpp>
 
 namespace brep {
@@ -103,9 +106,15 @@ class EarClipper {
 
 // Corners of the triangles, as indices into `polygon`, which has at least 3 corners; n - 2 of them, some perhaps without area. O(n^2)
 // as a rule.
-// When all of them turn as the polygon does, they cover each of its points once; a simple planar polygon is cut so, except for rounding.
+// When all of them turn as the polygon does, they cover each of its points once. A planar polygon that is simple, or would be if its
+// corners moved by a rounding, is cut so, except for rounding.
 [[nodiscard]] inline std::vector<std::array<std::uint32_t, 3>> ears(std::span<const glm::dvec3> polygon) {
-  return detail::EarClipper(polygon).run();
+  constexpr std::size_t most_corners = 1024;  // least_overlap() takes a quarter of a second for them, and the cube of that for more
+  std::vector<std::array<std::uint32_t, 3>> triangles = detail::EarClipper(polygon).run();
+  if (polygon.size() < 4 || polygon.size() > most_corners) { return triangles; }
+  const Outline outline(polygon);
+  const auto turned_over = [&](const auto& t) { return outline.side(t[0], t[1], t[2]) < 0; };
+  return std::any_of(triangles.begin(), triangles.end(), turned_over) ? least_overlap(outline) : triangles;
 }
 
 }  // namespace brep

@@ -30,8 +30,9 @@ class Outline {
   using Diagonal = std::pair<std::size_t, std::size_t>;
 
   // Projects p along its normal; it runs counter-clockwise in the result. Without area all points coincide.
-  explicit Outline(Polygon p) {
-    const glm::dvec3 n = normal(p);
+  explicit Outline(Polygon p) : Outline(p, normal(p)) {}
+  // Projects p along this normal. If it is zero, all points coincide.
+  Outline(Polygon p, const glm::dvec3& n) {
     const glm::dvec3 across = std::abs(n.x) < 0.6 ? glm::dvec3{1.0, 0.0, 0.0} : glm::dvec3{0.0, 1.0, 0.0};
     const glm::dvec3 v = glm::cross(n, across), u = glm::cross(v, n);
     const double unit = glm::length(v) > 0.0 ? 1.0 / glm::length(v) : 0.0;
@@ -45,10 +46,16 @@ class Outline {
   [[nodiscard]] std::size_t next(std::size_t i) const { return i + 1 < size() ? i + 1 : 0; }
   [[nodiscard]] std::size_t prev(std::size_t i) const { return i > 0 ? i - 1 : size() - 1; }
 
+  // Of the triangle of three corners; positive when they run counter-clockwise. Up to the tolerance it counts as zero.
+  [[nodiscard]] double twice_area(std::size_t a, std::size_t b, std::size_t c) const {
+    return cross(points_[b] - points_[a], points_[c] - points_[a]);
+  }
+  [[nodiscard]] double tolerance() const { return tolerance_; }
+
   // 1 when c lies left of the line a -> b, -1 when it lies right, 0 when on it within rounding.
   [[nodiscard]] int side(std::size_t a, std::size_t b, std::size_t c) const {
-    const double twice_area = cross(points_[b] - points_[a], points_[c] - points_[a]);
-    return twice_area > tolerance_ ? 1 : twice_area < -tolerance_ ? -1 : 0;
+    const double area = twice_area(a, b, c);
+    return area > tolerance_ ? 1 : area < -tolerance_ ? -1 : 0;
   }
 
   // How far the outline turns left at corner i, in (-pi, pi]: negative at a non-convex corner, 0 where it is straight.

@@ -182,12 +182,17 @@ template <class B, SplitObjectFor<B> Split, ConditionFor<B> Condition>
 
 namespace detail {
 
+template <class B>
+[[nodiscard]] Refusal check_corners(const B& brep, FaceId f) {
+  if (!brep.alive(f)) { return {Code::dead, {f}}; }
+  return degree(brep, f) < 3 ? Refusal{Code::few_corners, {f}} : Refusal{};
+}
+
 // Is f a polygon that diagonals can take apart: finite, with area, and with a boundary that meets itself at bridges alone?
 template <class B>
 [[nodiscard]] Refusal check_polygon(const B& brep, FaceId f, double greatest_planarity) {
-  if (!brep.alive(f)) { return {Code::dead, {f}}; }
+  if (const Refusal refusal = check_corners(brep, f); refusal.code != Code::none) { return refusal; }
   const auto points = positions(brep, f);
-  if (points.size() < 3) { return {Code::few_corners, {f}}; }
   const double size = extent(points);
   if (!std::isfinite(size) || !(area(points) > 1e-14 * size * size)) { return {Code::degenerate_polygon, {f}}; }
   if (planarity(points) > greatest_planarity) { return {Code::not_planar, {f}}; }
@@ -210,6 +215,20 @@ template <class B>
   if (parts->unfinished.empty()) { return std::move(parts->faces); }
   detail::take_back(brep, *parts);  // a simple polygon always has such diagonals; only one that is degenerate within rounding ends here
   return Refusal{Code::degenerate_polygon, {f}};
+}
+
+// The same for a face of a boundary that need be neither simple nor planar, as long as it would be if its corners moved by a little: one that
+// comes within rounding of itself, a thin one, a warped one. Where no inner diagonal is left, the triangulation that overlaps least is
+// followed (least_overlap.hpp). The parts are convex or triangles; among the triangles some may have no area, within rounding.
+// Refused (nothing changes): f is dead or has fewer than three corners; no handle is left.
+template <class B>
+[[nodiscard]] Result<std::vector<FaceId>> split_nearly_simple(B& brep, FaceId f) {
+  if (Result<std::vector<FaceId>> parts = split_until_convex(brep, f)) { return parts; }
+  if (const Refusal refusal = detail::check_corners(brep, f); refusal.code != Code::none) { return refusal; }
+  const auto split = first_of(AtNonConvexCorner{}, AtLeastOverlap{normal(brep, f)});
+  Result<Parts> parts = split_recursively(brep, f, split, Convex{} || triangles);
+  if (!parts) { return parts.refusal(); }
+  return std::move(parts->faces);
 }
 
 }  // namespace brep

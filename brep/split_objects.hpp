@@ -9,17 +9,17 @@
 //
 //   first_of(AtTVertex{}, NiceSplit{})    asks one after the other until one finds a place
 
-#include <cmath>
+#include <algorithm>
 #include <cstddef>
 #include <tuple>
 #include <type_traits>
 #include <utility>
 
-#include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
 #include <brep/circulators.hpp>
 #include <brep/geometry.hpp>
+#include <brep/least_overlap.hpp>
 #include <brep/outline.hpp>
 #include <brep/small_list.hpp>
 
@@ -87,25 +87,23 @@ struct NiceSplit {
   }
 };
 
-// For faces so warped that no inner diagonal is found: cuts off three consecutive corners such that the smaller part has the largest signed
-// area. Finds a place in every face of four and more edges.
-struct AtBestEar {
+// For faces that no inner diagonal cuts, because they come within rounding of themselves or are warped: of the triangulation that overlaps
+// least (least_overlap.hpp), the diagonal that comes nearest to halving the corners. Finds a place in every face of four and more edges.
+// The parts are seen along the normal of the whole face, because those without area have none of their own.
+struct AtLeastOverlap {
+  glm::dvec3 normal{0.0};
   template <class B>
   Cut operator()(const B& brep, FaceId f) const {
     const auto loop = detail::loop_of(brep, f);
-    if (loop.size() < 4) { return {}; }
-    const auto points = positions(brep, f);
-    const glm::dvec3 n = normal(points);
-    const double whole = area(points);
-    Cut best{loop[0], loop[2]};
-    double best_area = -HUGE_VAL;
-    for (std::size_t i = 0; i < loop.size(); ++i) {
-      const std::size_t j = (i + 1) % loop.size(), k = (i + 2) % loop.size();
-      const double ear = 0.5 * glm::dot(glm::cross(points[j] - points[i], points[k] - points[i]), n);
-      const double smaller = std::fmin(ear, whole - ear);
-      if (smaller <= best_area) { continue; }
-      best_area = smaller;
-      best = {loop[i], loop[k]};
+    const std::size_t n = loop.size();
+    if (n < 4) { return {}; }
+    std::size_t most = 1;  // corners on the smaller side of the diagonal
+    Cut best;
+    for (const auto& [i, k, j] : least_overlap(Outline{Polygon(positions(brep, f)), normal})) {
+      const std::size_t smaller = std::min<std::size_t>(j - i, n - (j - i));
+      if (smaller <= most) { continue; }
+      most = smaller;
+      best = {loop[i], loop[j]};
     }
     return best;
   }

@@ -73,7 +73,7 @@ struct AtTVertex {
 // When no handle is left, nothing changes.
 template <class B>
 std::size_t eliminate_t_vertices(B& brep, FaceId f) {
-  const auto split = first_of(AtTVertex{}, NiceSplit{}, AtBestEar{});
+  const auto split = first_of(AtTVertex{}, NiceSplit{}, AtLeastOverlap{normal(brep, f)});
   const auto parts = split_recursively(brep, f, split, triangles || (quadrangles && NoTVertices{} && StrictlyConvex{}));
   if (!parts || parts->faces.size() == 1) { return 0; }
   for (FaceId part : parts->faces) {

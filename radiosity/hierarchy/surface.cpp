@@ -18,14 +18,12 @@
 #include <brep/builder.hpp>
 #include <brep/builder_input.hpp>
 #include <brep/circulators.hpp>
-#include <brep/conditions.hpp>
 #include <brep/geometry.hpp>
 #include <brep/handles.hpp>
 #include <brep/refine.hpp>
 #include <brep/result.hpp>
 #include <brep/small_list.hpp>
 #include <brep/split.hpp>
-#include <brep/split_objects.hpp>
 
 #include <raycast/box.hpp>
 #include <raycast/inline.hpp>
@@ -59,14 +57,9 @@ HALFLIGHT_INLINE SurfaceResult make_surface(const raycast::PlacedObject& object,
     if (surface.brep.data(f).sheet != brep::no_sheet && !brep::is_convex(surface.brep, f)) { concave.push_back(f); }
   }
   for (const brep::FaceId f : concave) {
-    const auto parts = brep::split_until_convex(surface.brep, f);
-    if (parts) { continue; }
-    // A chord face that was cut along another solid need not be planar, and a sliver of one may touch itself or lose its area when its
-    // corners are rounded; then ears are cut off, down to triangles if necessary.
-    const auto split = brep::first_of(brep::AtNonConvexCorner{}, brep::AtBestEar{});
-    if (object.flat() || !brep::split_recursively(surface.brep, f, split, brep::Convex{} || brep::triangles)) {
-      return {std::nullopt, parts.refusal().sentence()};
-    }
+    // A chord face that was cut along another solid need not be planar, a sliver of one may touch itself or lose its area when its corners
+    // are rounded, and so may the outline of a plane face that comes near itself.
+    if (const auto parts = brep::split_nearly_simple(surface.brep, f); !parts) { return {std::nullopt, parts.refusal().sentence()}; }
   }
   for (const brep::FaceId f : brep::faces(surface.brep)) { surface.brep.data(f).part = f.index; }
   return {std::move(surface), {}};

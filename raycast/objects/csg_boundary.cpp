@@ -310,7 +310,7 @@ class CsgEvaluation {
     return std::all_of(tree_.leaves().begin(), tree_.leaves().end(), [](const CsgTree::Leaf& leaf) { return leaf.solid.flat(); });
   }
   bool cut(CsgBRep& brep) {
-    refusal_ = cut_into_convex_parts(brep, tree_, all_flat());
+    refusal_ = cut_into_convex_parts(brep, tree_);
     return refusal_.empty();
   }
 

@@ -13,14 +13,12 @@
 
 #include <brep/brep.hpp>
 #include <brep/circulators.hpp>
-#include <brep/conditions.hpp>
 #include <brep/geometry.hpp>
 #include <brep/handles.hpp>
 #include <brep/polygon.hpp>
 #include <brep/result.hpp>
 #include <brep/small_list.hpp>
 #include <brep/split.hpp>
-#include <brep/split_objects.hpp>
 #include <brep/unchecked.hpp>
 
 #include <raycast/inline.hpp>
@@ -63,22 +61,15 @@ HALFLIGHT_INLINE void take_away_slivers(CsgBRep& brep) {
   }
 }
 
-HALFLIGHT_INLINE std::string cut_into_convex_parts(CsgBRep& brep, const CsgTree& tree, bool planar) {
+HALFLIGHT_INLINE std::string cut_into_convex_parts(CsgBRep& brep, const CsgTree& tree) {
   std::vector<brep::FaceId> concave;
   for (const brep::FaceId f : brep::faces(brep)) {
     if (!brep::is_convex(brep, f)) { concave.push_back(f); }
   }
   for (const brep::FaceId f : concave) {
-    const auto parts = brep::split_until_convex(brep, f);
-    if (parts) { continue; }
-    const auto refusal = [&](const brep::Refusal& why) {
+    if (const auto parts = brep::split_nearly_simple(brep, f); !parts) {
       return "a face of '" + std::string(tree.sheet_name(brep.data(f).sheet)) +
-             "' is too thin to be cut into convex parts: " + why.sentence();
-    };
-    if (planar) { return refusal(parts.refusal()); }
-    const auto split = brep::first_of(brep::AtNonConvexCorner{}, brep::AtBestEar{});
-    if (const auto warped = brep::split_recursively(brep, f, split, brep::Convex{} || brep::triangles); !warped) {
-      return refusal(warped.refusal());
+             "' cannot be cut into convex parts: " + parts.refusal().sentence();
     }
   }
   return {};
