@@ -3,8 +3,8 @@
 
 // Triangles of any polygon, planar or not. It is looked at along its mean normal (Newell), and the best ear is cut off again and again
 // (Meisters 1975): the one of which the worse of ear and rest has the best shape, tilt against the mean normal included. So a
-// quadrilateral is cut along the better of its two diagonals. A polygon that crosses itself, or comes within rounding of itself, runs out of
-// ears: then the best corner is cut off although others lie in its triangle, and some triangle is turned over in the end. Where that has
+// quadrilateral is cut along the better of its two diagonals. A polygon that crosses itself, or comes within rounding of itself, runs out
+// of ears: then the best corner is cut off although others lie in its triangle, and some triangle is turned over in the end. Where that has
 // area, the triangles that overlap least are taken instead.
 
 #include <algorithm>

@@ -217,7 +217,7 @@ template <class B>
   return Refusal{Code::degenerate_polygon, {f}};
 }
 
-// The same for a face of a boundary that need be neither simple nor planar, as long as it would be if its corners moved by a little: one that
+// The same for a face that need be neither simple nor planar, as long as it would be if its corners moved by a little: one that
 // comes within rounding of itself, a thin one, a warped one. Where no inner diagonal is left, the triangulation that overlaps least is
 // followed (least_overlap.hpp). The parts are convex or triangles; among the triangles some may have no area, within rounding.
 // Refused (nothing changes): f is dead or has fewer than three corners; no handle is left.

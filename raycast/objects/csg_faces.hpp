@@ -14,8 +14,8 @@ namespace raycast::detail {
 // by more than the thickness of the face.
 void take_away_slivers(CsgBRep& brep);
 
-// Divides all faces by diagonals until they are convex, or triangles where they are warped or thin (brep::split_nearly_simple). The sentence
-// says why that was refused; it is empty as a rule.
+// Divides all faces by diagonals until they are convex, or triangles where they are warped or thin (brep::split_nearly_simple). The
+// sentence says why that was refused; it is empty as a rule.
 [[nodiscard]] std::string cut_into_convex_parts(CsgBRep& brep, const CsgTree& tree);
 
 // Where a solid touches itself, several edges may join the same two vertices, which a list of polygons cannot represent. All but one of
