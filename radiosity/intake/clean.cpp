@@ -88,19 +88,25 @@ HALFLIGHT_INLINE void drop_degenerate(Working& mesh) {
   });
 }
 
-HALFLIGHT_INLINE void drop_duplicates(Working& mesh, const std::vector<bool>& among) {
-  std::vector<std::pair<std::vector<std::uint32_t>, std::uint32_t>> keys;
+HALFLIGHT_INLINE void drop_duplicates(Working& mesh, const std::vector<bool>& among, const std::vector<bool>& yielding) {
+  struct Key {
+    std::vector<std::uint32_t> corners;
+    bool stays = true;
+    std::uint32_t face = 0;
+    auto operator<=>(const Key&) const = default;
+  };
+  std::vector<Key> keys;
   for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) {
-    if (among.empty() || among[f]) { keys.emplace_back(canonical(mesh.faces[f].corners), f); }
+    if (among.empty() || among[f]) { keys.push_back({canonical(mesh.faces[f].corners), yielding.empty() || !yielding[f], f}); }
   }
   std::sort(keys.begin(), keys.end());
   std::vector<bool> gone(mesh.faces.size(), false);
   for (std::size_t first = 0, end = 0; first < keys.size(); first = end) {
-    while (end < keys.size() && keys[end].first == keys[first].first) { ++end; }
-    Face& last = mesh.faces[keys[end - 1].second];
+    while (end < keys.size() && keys[end].corners == keys[first].corners) { ++end; }
+    Face& last = mesh.faces[keys[end - 1].face];
     for (std::size_t i = end - 1; i-- > first;) {
-      const Face& earlier = mesh.faces[keys[i].second];
-      gone[keys[i].second] = true;
+      const Face& earlier = mesh.faces[keys[i].face];
+      gone[keys[i].face] = true;
       last.stand_for(earlier);
       if (last.back == none) { last.back = earlier.back; }
       mesh.changed(ChangeKind::duplicate, earlier.polygon);

@@ -19,8 +19,8 @@ namespace radiosity::intake {
 void drop_degenerate(Working& mesh);
 
 // Removes faces with the same corners in the same order as a later one, because the later one covers the earlier (as with objects).
-// `among`: only these faces; empty: all.
-void drop_duplicates(Working& mesh, const std::vector<bool>& among = {});
+// `among`: only these faces; empty: all. `yielding`: these faces are removed rather than others, whatever their order; empty: none.
+void drop_duplicates(Working& mesh, const std::vector<bool>& among = {}, const std::vector<bool>& yielding = {});
 
 // Cuts faces that are not simple polygons, or not nearly planar, into triangles. `strict`: also those that are only nearly planar.
 void split_faulty(Working& mesh, bool strict);

@@ -199,7 +199,7 @@ HALFLIGHT_INLINE void turn_to_light(Working& mesh, std::span<const Material> mat
     const bool outwards = side_of[p] < 0 && views[p].back.way > views[p].front.way;
     if (outwards && borders.surrounds(p)) { side_of[p] = 0; }
   }
-  std::vector<bool> asked(mesh.faces.size());
+  std::vector<bool> asked(mesh.faces.size()), turned(mesh.faces.size());
   for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) {
     const std::uint32_t p = borders.piece[f];
     asked[f] = asks(p);
@@ -210,16 +210,21 @@ HALFLIGHT_INLINE void turn_to_light(Working& mesh, std::span<const Material> mat
       face.back = face.material;
       mesh.changed(ChangeKind::dividing, face.polygon);
     }
-    if (side == 0) { continue; }
+    // A lamp with a polygon for its back keeps both: it shines as given, however dark the gap behind it.
+    const auto shines = [&](std::uint32_t material) { return !is_black(materials[material].emission); };
+    if (side == 0 || (face.back != none && (shines(face.material) || shines(face.back)))) { continue; }
     if (side < 0) {
       face.turn();
+      turned[f] = true;
       mesh.changed(ChangeKind::to_light, face.polygon);
     }
     face.mixed = false;
     if (face.back != none) { leave_out_backs(mesh, face); }
     face.back = none;
   }
-  drop_duplicates(mesh, asked);  // twins, one of which has been turned
+  // A polygon that was given for the dark side of a sheet has been turned onto the one that was given for its light side, such as the
+  // black back of a lamp onto the lamp. The latter stays.
+  drop_duplicates(mesh, asked, turned);
 }
 
 }  // namespace radiosity::intake

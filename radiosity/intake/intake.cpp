@@ -33,6 +33,7 @@ HALFLIGHT_INLINE Intake take_in(const PolygonView& input, std::span<const Materi
   intake::drop_duplicates(mesh);  // including those that had no T-joint
   intake::join_backs(mesh);
   intake::join_groups(mesh);
+  intake::join_backs(mesh);  // including those of two groups
   intake::split_faulty(mesh, false);
   intake::orient(mesh);
   intake::turn_to_light(mesh, materials, options);
