@@ -10,11 +10,13 @@
 //     text -> lexer (words, numbers, braces, ends of lines) -> parser (statements with their places)
 //          -> build (names resolved, shapes made, groups placed) -> SceneFile
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -49,6 +51,20 @@ struct GivenPolygons {
   radiosity::PolygonParts parts;  // of the objects from first_object on
   std::uint32_t first_object = 0;
   bool z_up = false;  // is z the vertical axis of the file?
+
+  [[nodiscard]] std::size_t count() const { return first_corner.size() - 1; }
+  [[nodiscard]] std::span<const std::uint32_t> polygon(std::size_t p) const {
+    return std::span(corners).subspan(first_corner[p], first_corner[p + 1] - first_corner[p]);
+  }
+  // Are all corner indices of the polygon valid? Others are not exported.
+  [[nodiscard]] bool sound(std::size_t p) const {
+    return std::ranges::all_of(polygon(p), [this](std::uint32_t v) { return v < positions.size(); });
+  }
+  // The polygons in the scene, all of material 0: `material` holds as many zeros as there are polygons and must outlive the view.
+  [[nodiscard]] radiosity::PolygonView in_scene(std::vector<std::uint32_t>& material) const {
+    material.assign(count(), 0);
+    return {placed, corners, first_corner, material};
+  }
 };
 
 // A file that was read for a scene: a mesh, materials, a picture, a part.

@@ -26,6 +26,10 @@ struct Box {
   [[nodiscard]] glm::dvec3 centre() const { return 0.5 * lo + 0.5 * hi; }
   [[nodiscard]] glm::dvec3 size() const { return empty() ? glm::dvec3{0.0} : hi - lo; }
   [[nodiscard]] double diameter() const { return glm::length(size()); }
+  // Corner 0 to 7; bit k of the index: at the upper end along axis k.
+  [[nodiscard]] glm::dvec3 corner(unsigned index) const {
+    return {index & 1u ? hi.x : lo.x, index & 2u ? hi.y : lo.y, index & 4u ? hi.z : lo.z};
+  }
   [[nodiscard]] double half_area() const {
     const glm::dvec3 s = size();
     return s.x * s.y + s.y * s.z + s.z * s.x;

@@ -6,8 +6,6 @@
 #include <cstdint>
 #include <functional>
 
-#include <glm/vec3.hpp>
-
 #include <raycast/ray.hpp>
 
 namespace raycast {

@@ -19,7 +19,6 @@
 #include <raycast/circle.hpp>
 #include <raycast/compiled.hpp>
 #include <raycast/planar.hpp>
-#include <raycast/tolerances.hpp>
 #include <raycast/transform.hpp>
 
 namespace raycast {

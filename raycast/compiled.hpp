@@ -124,7 +124,6 @@ struct Compiled {
   std::vector<std::uint32_t> room_bodies;    // by room: its convex body, or no_shape
   std::vector<std::array<float, 4>> sheets;  // planes of the sheets of flat solids: heights in the air
   std::vector<std::uint32_t> first_sheet;    // by object: index into `sheets`, or no_shape
-  std::uint32_t shape_count = 0;
 
   [[nodiscard]] bool few() const { return nodes.empty() || !leaves.empty(); }
   [[nodiscard]] static bool is_leaf(std::uint32_t child) { return raycast::is_leaf(child); }

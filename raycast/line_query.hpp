@@ -7,8 +7,6 @@
 #include <cstddef>
 #include <cstdint>
 
-#include <glm/vec3.hpp>
-
 #include <raycast/box.hpp>
 #include <raycast/bvh.hpp>
 #include <raycast/compiled.hpp>

@@ -213,7 +213,6 @@ class WideTreeBuilder {
 };
 
 inline void Compiler::finish(std::size_t loop_limit) {
-  out_.shape_count = static_cast<std::uint32_t>(items_.size());
   out_.bodies.reserve(bodies_.size());
   for (std::uint32_t& body : out_.room_bodies) {
     if (body != no_shape) { out_.bodies.push_back(bodies_[std::exchange(body, static_cast<std::uint32_t>(out_.bodies.size()))]); }

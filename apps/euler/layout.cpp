@@ -14,6 +14,8 @@
 
 #include <brep/handles.hpp>
 
+#include "apps/euler/relaxation.hpp"
+
 namespace apps::euler {
 namespace {
 
@@ -102,13 +104,11 @@ void settle(Embedding& drawing, const PlanarMap& map, std::size_t corners, const
   each_point([&](Point& p) { p = (p - 0.5 * (low + high)) / half; });
 }
 
-double turn(const Point& a, const Point& b, const Point& c) { return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x); }
-
 bool cross(const std::vector<Point>& s, const std::vector<Point>& t) {
   for (std::size_t i = 1; i < s.size(); ++i) {
     for (std::size_t j = 1; j < t.size(); ++j) {
       const Point &a = s[i - 1], &b = s[i], &c = t[j - 1], &d = t[j];
-      if (turn(a, b, c) * turn(a, b, d) < 0 && turn(c, d, a) * turn(c, d, b) < 0) { return true; }
+      if (area(a, b, c) * area(a, b, d) < 0 && area(c, d, a) * area(c, d, b) < 0) { return true; }
     }
   }
   return false;

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "apps/euler/relaxation.hpp"
+
 namespace apps::euler {
 namespace {
 
@@ -17,7 +19,6 @@ double distance(const Point& p, const Point& a, const Point& b) {
   const double t = std::clamp(glm::dot(p - a, d) / std::max(glm::dot(d, d), 1e-300), 0.0, 1.0);
   return glm::length(p - a - t * d);
 }
-double side(const Point& p, const Point& a, const Point& b) { return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x); }
 
 // Shrinks a name while it overlaps another one, to a size that is readable when magnified; to 0, not drawn, if even that does not fit.
 void shrink_until_free(const std::vector<NameBox>& taken, double smallest, std::size_t letters, const Point& at, double& size) {
@@ -103,8 +104,8 @@ class Region {
     int winding = 0;
     for (std::size_t i = 0; i < points_.size(); ++i) {
       const Point a = points_[i], b = points_[(i + 1) % points_.size()];
-      if (a.y <= p.y && b.y > p.y && side(p, a, b) > 0) { ++winding; }
-      if (a.y > p.y && b.y <= p.y && side(p, a, b) < 0) { --winding; }
+      if (a.y <= p.y && b.y > p.y && area(a, b, p) > 0) { ++winding; }
+      if (a.y > p.y && b.y <= p.y && area(a, b, p) < 0) { --winding; }
     }
     return (winding != 0) != outer_;
   }
@@ -124,7 +125,7 @@ class Region {
           const Point a = points_[i], b = points_[(i + 1) % points_.size()];
           const double d = distance(p, a, b);
           // For a point equally near to both sides of a spur, the side it is on decides.
-          if (d < site.room - 1e-9 || (d < site.room + 1e-9 && side(p, a, b) > 0)) {
+          if (d < site.room - 1e-9 || (d < site.room + 1e-9 && area(a, b, p) > 0)) {
             site.room = d;
             site.owner = owner_[i];
           }

@@ -35,7 +35,7 @@ struct Net {
   std::uint32_t count = 0;
 };
 
-// Twice the signed area.
+// Twice the signed area of a triangle: above 0 if a, b, c turn left, that is, if c lies to the left of the line from a to b.
 [[nodiscard]] inline double area(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
   return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }

@@ -79,28 +79,21 @@ ExportMesh solution_mesh(const SceneFile& file, const radiosity::Solution& solut
   return out;
 }
 
-bool is_sound(const GivenPolygons& given, std::size_t polygon) {
-  return std::all_of(given.corners.begin() + given.first_corner[polygon], given.corners.begin() + given.first_corner[polygon + 1],
-                     [&](std::uint32_t v) { return v < given.positions.size(); });
-}
-
 std::optional<ExportMesh> given_mesh(const SceneFile& file, const radiosity::Solution& solution) {
   if (!file.given) { return std::nullopt; }
   const GivenPolygons& given = *file.given;
   const radiosity::BakedLight light(file.scene, solution, given.parts, given.first_object);
-  const std::vector<std::uint32_t> material(given.first_corner.size() - 1, 0);
-  const radiosity::PolygonView view{given.placed, given.corners, given.first_corner, material};
-  const radiosity::BakedColors colors = radiosity::baked_colors(light, view);
+  std::vector<std::uint32_t> material;
+  const radiosity::BakedColors colors = radiosity::baked_colors(light, given.in_scene(material));
   ExportMesh out;
   out.z_up = given.z_up;
   out.as_given = true;
   out.groups.push_back({"mesh", 0, 0});
   std::vector<glm::dvec3> normals(given.positions.size(), glm::dvec3(0.0));
   std::vector<glm::dvec3> outline;
-  for (std::size_t f = 0; f + 1 < given.first_corner.size(); ++f) {
-    const std::span<const std::uint32_t> face =
-        std::span(given.corners).subspan(given.first_corner[f], given.first_corner[f + 1] - given.first_corner[f]);
-    if (!is_sound(given, f)) { continue; }
+  for (std::size_t f = 0; f < given.count(); ++f) {
+    if (!given.sound(f)) { continue; }
+    const std::span<const std::uint32_t> face = given.polygon(f);
     outline.clear();
     for (const std::uint32_t v : face) { outline.push_back(given.positions[v]); }
     const glm::dvec3 normal = outline.size() < 3 ? glm::dvec3(0.0) : brep::vector_area(outline);

@@ -63,9 +63,6 @@ struct ExportMesh {
 // if the scene did not come from a file of polygons.
 [[nodiscard]] std::optional<ExportMesh> given_mesh(const SceneFile& file, const radiosity::Solution& solution);
 
-// Are all corner indices of the polygon valid? given_mesh() leaves out others.
-[[nodiscard]] bool is_sound(const GivenPolygons& given, std::size_t polygon);
-
 // The same mesh with one vertex per position in the texture: vertices on seams of the texture are doubled. `of_vertex` gets their
 // positions.
 [[nodiscard]] ExportMesh split_at_seams(const ExportMesh& mesh, std::vector<glm::vec2>& of_vertex);

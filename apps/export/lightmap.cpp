@@ -148,21 +148,21 @@ std::optional<LightTexture> given_texture(const SceneFile& file, const radiosity
   if (!file.given) { return std::nullopt; }
   const GivenPolygons& given = *file.given;
   const radiosity::BakedLight light(file.scene, solution, given.parts, given.first_object);
-  const std::vector<std::uint32_t> material(given.first_corner.size() - 1, 0);
-  const radiosity::PolygonView view{given.placed, given.corners, given.first_corner, material};
+  std::vector<std::uint32_t> material;
+  const radiosity::PolygonView view = given.in_scene(material);
   double area = 0.0;
   std::vector<glm::dvec3> outline;
-  for (std::size_t f = 0; f < view.count(); ++f) {
+  for (std::size_t f = 0; f < given.count(); ++f) {
+    if (!given.sound(f)) { continue; }
     outline.clear();
-    if (!is_sound(given, f)) { continue; }
-    for (std::size_t c = given.first_corner[f]; c < given.first_corner[f + 1]; ++c) { outline.push_back(given.placed[given.corners[c]]); }
+    for (const std::uint32_t v : given.polygon(f)) { outline.push_back(given.placed[v]); }
     if (outline.size() >= 3) { area += glm::length(brep::vector_area(outline)); }
   }
   const radiosity::Lightmap map = radiosity::make_lightmap(light, view, texel.value_or(texel_for(area)));
   if (map.texels.empty()) { return std::nullopt; }
   mesh.coordinates.clear();
-  for (std::size_t f = 0; f < view.count(); ++f) {
-    if (!is_sound(given, f)) { continue; }
+  for (std::size_t f = 0; f < given.count(); ++f) {
+    if (!given.sound(f)) { continue; }
     mesh.coordinates.insert(mesh.coordinates.end(), map.coordinates.begin() + given.first_corner[f],
                             map.coordinates.begin() + given.first_corner[f + 1]);
   }

@@ -58,11 +58,7 @@ std::optional<SceneFile> mesh_from_file(const ObjectSyntax& object, const SideFi
 
 raycast::Box bounds_of(const std::vector<radiosity::SceneObject>& parts) {
   raycast::Box box;
-  for (const radiosity::SceneObject& part : parts) {
-    const raycast::Box its = radiosity::placed_bounds(*part.shape, part.placement);
-    box.extend(its.lo);
-    box.extend(its.hi);
-  }
+  for (const radiosity::SceneObject& part : parts) { box.extend(radiosity::placed_bounds(*part.shape, part.placement)); }
   return box;
 }
 
@@ -98,11 +94,7 @@ bool Eyes::larger_room(const raycast::Box& mesh, std::size_t first, std::size_t 
 
 std::vector<glm::dvec3> Eyes::within(const raycast::Box& box, const raycast::Placement& placement, const ObjectSyntax* mesh) const {
   const raycast::Box inner = box.grown(-1e-9 * box.diameter());  // points on its sides are not inside
-  raycast::Box placed;
-  for (int k = 0; k < 8; ++k) {
-    const glm::dvec3 corner{(k & 1 ? box.hi : box.lo).x, (k & 2 ? box.hi : box.lo).y, (k & 4 ? box.hi : box.lo).z};
-    placed.extend(placement.linear * corner + placement.translation);
-  }
+  const raycast::Box placed = radiosity::placed_bounds(box, placement);
   std::vector<glm::dvec3> list;
   std::vector<glm::dvec3> its;  // the points of one camera or lamp that are inside
   for (std::size_t i = 0, first = 0; i < points_.size(); ++i) {

@@ -54,12 +54,7 @@ class Page {
 
   // A table of all scenes: the time that each method needs for the error that most of them reach.
   void overview() {
-    std::vector<std::string> names;
-    for (const SceneStudy& s : study_.scenes) {
-      for (const Method& m : s.methods) {
-        if (!apps::contains(names, m.name)) { names.push_back(m.name); }
-      }
-    }
+    const std::vector<std::string> names = method_names(study_);
     text_ += "<div class=\"scroll wide\"><h2 class=\"first\">Overview</h2>\n<table><caption><b>Table " + std::to_string(++tables_) +
              ".</b> CPU seconds of each method's cheapest run within the error named, which is the smallest that most methods reach; the "
              "least of each scene is bold.</caption>\n<thead><tr><th class=\"name\">scene</th><th "

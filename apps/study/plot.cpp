@@ -232,14 +232,9 @@ Drawing panels(const PlotText& text, const std::vector<Panel>& panels, double no
 
 namespace {
 
-// The index of the method in the order in which the study first names its methods.
+// The index of the method among method_names().
 std::size_t style_index(const Study& study, const std::string& method) {
-  std::vector<std::string> names;
-  for (const SceneStudy& scene : study.scenes) {
-    for (const Method& m : scene.methods) {
-      if (!apps::contains(names, m.name)) { names.push_back(m.name); }
-    }
-  }
+  const std::vector<std::string> names = method_names(study);
   return static_cast<std::size_t>(std::find(names.begin(), names.end(), method) - names.begin());
 }
 

@@ -138,6 +138,17 @@ enum class Cost { cpu_time, memory, links };
   return {cost_of(run, cost), error.value, error.limited};
 }
 
+// The methods of all scenes, in the order in which the study first names them.
+[[nodiscard]] inline std::vector<std::string> method_names(const Study& study) {
+  std::vector<std::string> names;
+  for (const SceneStudy& scene : study.scenes) {
+    for (const Method& m : scene.methods) {
+      if (!apps::contains(names, m.name)) { names.push_back(m.name); }
+    }
+  }
+  return names;
+}
+
 // One point per run.
 [[nodiscard]] inline std::vector<CostPoint> points_of(const Method& method, const Reference& reference, Cost cost) {
   std::vector<CostPoint> points;

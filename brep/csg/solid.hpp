@@ -23,8 +23,6 @@ namespace brep::csg {
 template <class F = std::uint32_t>
 class Solid {
  public:
-  using attribute_type = F;
-
   Solid() : Solid(Grid(glm::dvec3{0.0}, glm::dvec3{1.0}), {}, {}, {}) {}
   // For the operations: whoever calls this answers for the invariants of boundary.hpp. Attributes are numbers in the list. `largest`
   // is the same with faces as large as they can be, where that differs.

@@ -7,8 +7,6 @@
 #include <cstdint>
 #include <vector>
 
-#include <glm/vec3.hpp>
-
 #include <brep/csg/boundary.hpp>
 #include <brep/csg/contacts.hpp>
 #include <brep/csg/predicates.hpp>

@@ -16,7 +16,6 @@
 #include <raycast/scene.hpp>
 
 #include <radiosity/hierarchy/hierarchy.hpp>
-#include <radiosity/hierarchy/patch.hpp>
 #include <radiosity/refinement/discrete_scene.hpp>
 #include <radiosity/support/draw.hpp>
 #include <radiosity/support/parallel.hpp>

@@ -39,7 +39,6 @@
 #include <radiosity/support/parallel.hpp>
 #include <radiosity/support/random.hpp>
 #include <radiosity/support/sobol.hpp>
-#include <radiosity/visibility/plan.hpp>
 #include <radiosity/visibility/prepare.hpp>
 
 namespace radiosity {
@@ -57,7 +56,7 @@ HALFLIGHT_INLINE std::optional<PictureError> PictureAudit::measure(const ShownPi
                                                                    std::uint64_t seed, const Control& control, std::string* reason) const {
   std::uint64_t keys = 0, rays = 0;  // rays: including all pilots
   Measured measured;
-  bool reflects = false;   // has a pixel been found that counts?
+  bool reflects = false;  // has a pixel been found that counts?
   const double price = ray_work();
   const PixelDraw draw = draw_of(picture, goal.among_rays_of(price).rays / 8, rays, control);
   // A ray at the visible points may cost more or less than the mean over the scene, so it is priced again there.

@@ -11,15 +11,12 @@
 #include <utility>
 #include <vector>
 
-#include <glm/vec3.hpp>
-
 #include <brep/proportion.hpp>
 
 #include <raycast/inline.hpp>
 
 #include <radiosity/geometry/form_factor.hpp>
 #include <radiosity/hierarchy/hierarchy.hpp>
-#include <radiosity/hierarchy/patch.hpp>
 #include <radiosity/links/evaluate.hpp>
 #include <radiosity/links/saving.hpp>
 #include <radiosity/result/audit.hpp>

@@ -14,7 +14,6 @@
 #include <radiosity/scene/material.hpp>
 #include <radiosity/scene/options.hpp>
 #include <radiosity/solver/transport.hpp>
-#include <radiosity/visibility/exposure.hpp>
 #include <radiosity/visibility/occlusion.hpp>
 
 namespace radiosity {

@@ -18,7 +18,6 @@
 #include <radiosity/camera/fragments.hpp>
 #include <radiosity/camera/picture_blocks.hpp>
 #include <radiosity/camera/seen_surfaces.hpp>
-#include <radiosity/picture/gathered_point.hpp>
 
 namespace radiosity {
 

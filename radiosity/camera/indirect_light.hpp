@@ -4,9 +4,7 @@
 // The indirect light of a gathered picture: gathers it at sparse points of what the pixels show, and interpolates it between them
 // (indirect_points.hpp).
 
-#include <array>
 #include <cstddef>
-#include <cstdint>
 
 #include <radiosity/camera/contacts.hpp>
 #include <radiosity/camera/fragments.hpp>

@@ -124,10 +124,9 @@ HALFLIGHT_INLINE bool FactorRun::stands_free(const FactorRow& row) const {
 }
 
 HALFLIGHT_INLINE bool FactorRun::clear_of_walls(const raycast::PlacedObject& room, const raycast::Box& box) const {
-  for (int c = 0; c < 8; ++c) {
-    const glm::dvec3 p{c & 1 ? box.hi.x : box.lo.x, c & 2 ? box.hi.y : box.lo.y, c & 4 ? box.hi.z : box.lo.z};
+  for (unsigned c = 0; c < 8; ++c) {
     raycast::Spans spans;
-    const raycast::Segment along{p, {1.0, 0.0, 0.0}};  // unit direction, so t is a length
+    const raycast::Segment along{box.corner(c), {1.0, 0.0, 0.0}};  // unit direction, so t is a length
     room.spans(along, spans);
     for (const raycast::Span& span : spans) {
       if (span.in.t <= slack && span.out.t >= -slack) { return false; }

@@ -25,7 +25,7 @@ HALFLIGHT_INLINE Extremes::Extremes(const std::vector<Surface>& surfaces) {
     if (surface.object->exact()) {
       for (const brep::VertexId v : brep::vertices(surface.brep)) { points_.push_back(surface.brep.data(v).position); }
     } else {
-      for (int corner = 0; corner < 8; ++corner) { points_.push_back(corner_of(surface.object->bounds(), corner)); }
+      for (unsigned corner = 0; corner < 8; ++corner) { points_.push_back(surface.object->bounds().corner(corner)); }
     }
   }
   std::vector<raycast::Box> boxes;
@@ -41,8 +41,8 @@ HALFLIGHT_INLINE bool Extremes::any_above(const glm::dvec3& point, const glm::dv
   while (!stack.empty()) {
     const raycast::Bvh::Node& node = tree_.nodes()[stack.back()];
     stack.pop_back();
-    const int highest = (normal.x > 0.0 ? 1 : 0) + (normal.y > 0.0 ? 2 : 0) + (normal.z > 0.0 ? 4 : 0);
-    if (!above(corner_of(node.box, highest))) { continue; }
+    const unsigned highest = (normal.x > 0.0 ? 1u : 0u) + (normal.y > 0.0 ? 2u : 0u) + (normal.z > 0.0 ? 4u : 0u);
+    if (!above(node.box.corner(highest))) { continue; }
     if (node.count == 0) {
       stack.insert(stack.end(), {node.first, node.first + 1});
       continue;

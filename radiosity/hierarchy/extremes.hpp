@@ -25,10 +25,6 @@ class Extremes {
   [[nodiscard]] bool any_above(const glm::dvec3& point, const glm::dvec3& normal, double slack) const;
 
  private:
-  [[nodiscard]] static glm::dvec3 corner_of(const raycast::Box& box, int corner) {
-    return {corner & 1 ? box.hi.x : box.lo.x, corner & 2 ? box.hi.y : box.lo.y, corner & 4 ? box.hi.z : box.lo.z};
-  }
-
   std::vector<glm::dvec3> points_;
   raycast::Bvh tree_;
 };

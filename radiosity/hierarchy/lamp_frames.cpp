@@ -20,7 +20,6 @@
 #include <raycast/bvh.hpp>
 #include <raycast/inline.hpp>
 
-#include <radiosity/hierarchy/patch.hpp>
 #include <radiosity/hierarchy/surface.hpp>
 #include <radiosity/hierarchy/wall_lines.hpp>
 #include <radiosity/scene/material.hpp>

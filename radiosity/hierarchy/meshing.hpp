@@ -19,8 +19,6 @@
 #include <utility>
 #include <vector>
 
-#include <glm/vec3.hpp>
-
 #include <brep/handles.hpp>
 #include <brep/split.hpp>
 #include <brep/split_objects.hpp>

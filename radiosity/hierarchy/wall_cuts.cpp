@@ -5,8 +5,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
-#include <utility>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -25,7 +23,6 @@
 #include <raycast/inline.hpp>
 #include <raycast/transform.hpp>
 
-#include <radiosity/geometry/form_factor.hpp>
 #include <radiosity/hierarchy/lamp_frames.hpp>
 #include <radiosity/hierarchy/patch.hpp>
 #include <radiosity/hierarchy/surface.hpp>

@@ -15,7 +15,6 @@
 
 #include <raycast/box.hpp>
 
-#include <radiosity/hierarchy/patch.hpp>
 #include <radiosity/hierarchy/surface.hpp>
 
 namespace radiosity {

@@ -34,7 +34,7 @@ struct DenseMatrix {
   [[nodiscard]] const float* row(std::size_t i) const { return entry.data() + i * size; }
 };
 
-[[nodiscard]] DenseMatrix make_matrix(const LeafExchange& exchange, unsigned threads, const Control& control = {});
+[[nodiscard]] DenseMatrix make_matrix(const LeafExchange& exchange, unsigned threads, const Control& control);
 
 // Largest error of the row sums of a closed scene that the matrix explains.
 [[nodiscard]] double explained_closure(const DenseMatrix& matrix, const LeafExchange& exchange);

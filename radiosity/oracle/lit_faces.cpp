@@ -7,8 +7,6 @@
 #include <span>
 #include <vector>
 
-#include <glm/vec3.hpp>
-
 #include <raycast/inline.hpp>
 #include <raycast/object.hpp>
 #include <raycast/ray.hpp>

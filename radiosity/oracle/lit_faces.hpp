@@ -9,7 +9,6 @@
 #include <span>
 #include <vector>
 
-#include <radiosity/hierarchy/hierarchy.hpp>
 #include <radiosity/scene/material.hpp>
 #include <radiosity/visibility/scene_view.hpp>
 

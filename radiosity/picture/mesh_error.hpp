@@ -15,7 +15,6 @@
 #include <radiosity/result/mesh.hpp>
 #include <radiosity/scene/material.hpp>
 #include <radiosity/scene/options.hpp>
-#include <radiosity/scene/scene.hpp>
 
 namespace radiosity {
 

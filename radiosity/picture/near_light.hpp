@@ -25,7 +25,6 @@
 #include <radiosity/geometry/photon_grid.hpp>
 #include <radiosity/picture/bright_spots.hpp>
 #include <radiosity/picture/lookup.hpp>
-#include <radiosity/picture/met.hpp>
 #include <radiosity/scene/material.hpp>
 #include <radiosity/support/sobol.hpp>
 

@@ -16,7 +16,6 @@
 #include <radiosity/exchange/doubt.hpp>
 #include <radiosity/hierarchy/hierarchy.hpp>
 #include <radiosity/hierarchy/links.hpp>
-#include <radiosity/hierarchy/patch.hpp>
 #include <radiosity/rays/senders.hpp>
 #include <radiosity/rays/stored_rays.hpp>
 #include <radiosity/refinement/discrete_scene.hpp>

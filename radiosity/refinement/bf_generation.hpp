@@ -13,7 +13,6 @@
 #include <radiosity/oracle/proof_oracle.hpp>
 #include <radiosity/refinement/bf_goal.hpp>
 #include <radiosity/refinement/discrete_scene.hpp>
-#include <radiosity/refinement/leaf_error.hpp>
 #include <radiosity/refinement/link_error.hpp>
 
 namespace radiosity {

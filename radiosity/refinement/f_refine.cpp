@@ -14,7 +14,6 @@
 #include <radiosity/clusters/clusters.hpp>
 #include <radiosity/hierarchy/hierarchy.hpp>
 #include <radiosity/hierarchy/meshing.hpp>
-#include <radiosity/hierarchy/surface.hpp>
 #include <radiosity/oracle/lamp_oracle.hpp>
 #include <radiosity/oracle/light_oracle.hpp>
 #include <radiosity/oracle/oracle.hpp>

@@ -19,7 +19,6 @@
 #include <radiosity/hierarchy/patch.hpp>
 #include <radiosity/refinement/discrete_scene.hpp>
 #include <radiosity/scene/material.hpp>
-#include <radiosity/visibility/exposure.hpp>
 #include <radiosity/visibility/occlusion.hpp>
 
 namespace radiosity {

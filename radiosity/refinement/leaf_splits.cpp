@@ -18,7 +18,6 @@
 #include <radiosity/hierarchy/links.hpp>
 #include <radiosity/hierarchy/meshing.hpp>
 #include <radiosity/hierarchy/patch.hpp>
-#include <radiosity/hierarchy/surface.hpp>
 #include <radiosity/refinement/coarse_light.hpp>
 #include <radiosity/refinement/discrete_scene.hpp>
 #include <radiosity/refinement/leaf_error.hpp>

@@ -14,7 +14,6 @@
 #include <radiosity/hierarchy/hierarchy.hpp>
 #include <radiosity/hierarchy/links.hpp>
 #include <radiosity/hierarchy/meshing.hpp>
-#include <radiosity/hierarchy/surface.hpp>
 #include <radiosity/links/evaluate.hpp>
 #include <radiosity/oracle/f_oracle.hpp>
 #include <radiosity/oracle/oracle.hpp>

@@ -10,8 +10,6 @@
 #include <string>
 #include <vector>
 
-#include <glm/vec3.hpp>
-
 #include <radiosity/discontinuity/imprinted_edges.hpp>
 #include <radiosity/result/error_estimate.hpp>
 #include <radiosity/scene/material.hpp>

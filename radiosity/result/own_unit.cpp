@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <radiosity/result/own_unit.hpp>
 
-#include <glm/vec3.hpp>
-
 #include <brep/finite.hpp>
 
 #include <raycast/inline.hpp>

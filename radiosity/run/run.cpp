@@ -7,7 +7,6 @@
 
 #include <raycast/inline.hpp>
 
-#include <radiosity/hierarchy/patch.hpp>
 #include <radiosity/matrix/dense.hpp>
 #include <radiosity/picture/reconstruct.hpp>
 #include <radiosity/result/mesh.hpp>

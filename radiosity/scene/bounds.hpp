@@ -19,16 +19,15 @@
 
 namespace radiosity {
 
-// Bounds of the eight placed corners of the shape's own bounds; not tight for a rotated shape. NaN gives an empty or infinite
+// Bounds of the eight placed corners of a box, or of a shape's own bounds; not tight for a rotated shape. NaN gives an empty or infinite
 // box, never a finite one that is too small.
-[[nodiscard]] inline raycast::Box placed_bounds(const raycast::Object& shape, const raycast::Placement& placement) {
-  const raycast::Box own = shape.bounds();
+[[nodiscard]] inline raycast::Box placed_bounds(const raycast::Box& own, const raycast::Placement& placement) {
   raycast::Box result;
-  for (unsigned i = 0; i < 8; ++i) {
-    const glm::dvec3 corner((i & 1U) != 0 ? own.hi.x : own.lo.x, (i & 2U) != 0 ? own.hi.y : own.lo.y, (i & 4U) != 0 ? own.hi.z : own.lo.z);
-    result.extend(placement.linear * corner + placement.translation);
-  }
+  for (unsigned i = 0; i < 8; ++i) { result.extend(placement.linear * own.corner(i) + placement.translation); }
   return result;
+}
+[[nodiscard]] inline raycast::Box placed_bounds(const raycast::Object& shape, const raycast::Placement& placement) {
+  return placed_bounds(shape.bounds(), placement);
 }
 
 // The centres of the six sides of the shape's box, placed. They lie on a sphere and on most other shapes, except for the side of a cone.

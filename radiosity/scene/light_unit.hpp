@@ -10,8 +10,6 @@
 #include <cmath>
 #include <cstdint>
 
-#include <glm/vec3.hpp>
-
 #include <radiosity/scene/material.hpp>
 #include <radiosity/scene/scene.hpp>
 

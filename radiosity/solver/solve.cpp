@@ -8,8 +8,6 @@
 #include <utility>
 #include <vector>
 
-#include <glm/vec3.hpp>
-
 #include <raycast/inline.hpp>
 
 #include <radiosity/hierarchy/hierarchy.hpp>

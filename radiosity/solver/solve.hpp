@@ -20,7 +20,6 @@
 #include <cstdint>
 #include <vector>
 
-#include <radiosity/hierarchy/hierarchy.hpp>
 #include <radiosity/scene/material.hpp>
 #include <radiosity/scene/options.hpp>
 #include <radiosity/solver/iteration.hpp>

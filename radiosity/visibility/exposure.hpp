@@ -14,7 +14,6 @@
 #include <glm/vec3.hpp>
 
 #include <radiosity/hierarchy/hierarchy.hpp>
-#include <radiosity/hierarchy/surface.hpp>
 #include <radiosity/visibility/scene_view.hpp>
 #include <radiosity/visibility/visibility.hpp>
 

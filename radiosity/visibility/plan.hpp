@@ -39,7 +39,7 @@ struct Plan {
 };
 
 // `surfaces`: the unrefined boundaries of the compiled objects, one per object, in the frame.
-[[nodiscard]] Plan make_plan(const Scene& scene, const std::vector<Surface>& surfaces, bool shortcuts = true);
+[[nodiscard]] Plan make_plan(const Scene& scene, const std::vector<Surface>& surfaces, bool shortcuts);
 
 }  // namespace radiosity
 

@@ -39,9 +39,7 @@ HALFLIGHT_INLINE bool Shaft::misses(std::span<const glm::dvec3> corners) const {
 
 HALFLIGHT_INLINE bool Shaft::misses(const raycast::Box& box) const {
   std::array<glm::dvec3, 8> corners{};
-  for (std::size_t c = 0; c < 8; ++c) {
-    corners[c] = {c & 1 ? box.hi.x : box.lo.x, c & 2 ? box.hi.y : box.lo.y, c & 4 ? box.hi.z : box.lo.z};
-  }
+  for (unsigned c = 0; c < 8; ++c) { corners[c] = box.corner(c); }
   return misses(std::span<const glm::dvec3>{corners});
 }
 

@@ -13,7 +13,6 @@
 
 #include <raycast/box.hpp>
 #include <raycast/scene.hpp>
-#include <raycast/tolerances.hpp>
 #include <raycast/transform.hpp>
 
 #include <radiosity/hierarchy/surface.hpp>

@@ -49,10 +49,8 @@ HALFLIGHT_INLINE void BoxObject::compile(Compiler& compiler) const {
 }
 
 HALFLIGHT_INLINE void BoxObject::approximate(double, brep::Builder& out) const {
-  std::uint32_t v[8] = {};  // bit k of the index: at the upper end along axis k
-  for (unsigned i = 0; i < 8; ++i) {
-    v[i] = out.vertex({i & 1u ? box_.hi.x : box_.lo.x, i & 2u ? box_.hi.y : box_.lo.y, i & 4u ? box_.hi.z : box_.lo.z});
-  }
+  std::uint32_t v[8] = {};  // numbered as Box::corner
+  for (unsigned i = 0; i < 8; ++i) { v[i] = out.vertex(box_.corner(i)); }
   out.face({v[0], v[4], v[6], v[2]}, 0);
   out.face({v[1], v[3], v[7], v[5]}, 1);
   out.face({v[0], v[1], v[5], v[4]}, 2);

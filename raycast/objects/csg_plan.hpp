@@ -59,7 +59,7 @@ class CsgPlanner {
 
 }  // namespace detail
 
-[[nodiscard]] inline CsgPlan csg_plan(const CsgTree& tree, const CsgRegion& region, double tolerance, double relax = 1.0) {
+[[nodiscard]] inline CsgPlan csg_plan(const CsgTree& tree, const CsgRegion& region, double tolerance, double relax) {
   return detail::CsgPlanner(tree, region, tolerance, relax).run();
 }
 

@@ -30,7 +30,6 @@
 #include <raycast/roots.hpp>
 #include <raycast/spans.hpp>
 #include <raycast/superellipse.hpp>
-#include <raycast/tolerances.hpp>
 
 namespace raycast {
 
