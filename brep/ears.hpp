@@ -109,9 +109,8 @@ class EarClipper {
 // When all of them turn as the polygon does, they cover each of its points once. A planar polygon that is simple, or would be if its
 // corners moved by a rounding, is cut so, except for rounding.
 [[nodiscard]] inline std::vector<std::array<std::uint32_t, 3>> ears(std::span<const glm::dvec3> polygon) {
-  constexpr std::size_t most_corners = 1024;  // least_overlap() takes a quarter of a second for them, and the cube of that for more
   std::vector<std::array<std::uint32_t, 3>> triangles = detail::EarClipper(polygon).run();
-  if (polygon.size() < 4 || polygon.size() > most_corners) { return triangles; }
+  if (polygon.size() < 4 || polygon.size() > most_corners_of_least_overlap) { return triangles; }
   const Outline outline(polygon);
   const auto turned_over = [&](const auto& t) { return outline.side(t[0], t[1], t[2]) < 0; };
   return std::any_of(triangles.begin(), triangles.end(), turned_over) ? least_overlap(outline) : triangles;

@@ -25,6 +25,9 @@
 
 namespace brep {
 
+// A quarter of a second and 24 MB for so many corners; ears() and AtLeastOverlap ask for no more.
+inline constexpr std::size_t most_corners_of_least_overlap = 1024;
+
 // Corners of the triangles, in the order of the outline: n - 2 of them.                    Time: O(n^3), memory: O(n^2).
 [[nodiscard]] inline std::vector<std::array<std::uint32_t, 3>> least_overlap(const Outline& outline) {
   struct Cost {

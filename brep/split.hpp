@@ -220,15 +220,19 @@ template <class B>
 // The same for a face that need be neither simple nor planar, as long as it would be if its corners moved by a little: one that
 // comes within rounding of itself, a thin one, a warped one. Where no inner diagonal is left, the triangulation that overlaps least is
 // followed (least_overlap.hpp). The parts are convex or triangles; among the triangles some may have no area, within rounding.
-// Refused (nothing changes): f is dead or has fewer than three corners; no handle is left.
+// Refused (nothing changes): f is dead or has fewer than three corners; no handle is left; more than most_corners_of_least_overlap
+// corners are left when no inner diagonal is, with the refusal of split_until_convex.
 template <class B>
 [[nodiscard]] Result<std::vector<FaceId>> split_nearly_simple(B& brep, FaceId f) {
-  if (Result<std::vector<FaceId>> parts = split_until_convex(brep, f)) { return parts; }
+  Result<std::vector<FaceId>> simple = split_until_convex(brep, f);
+  if (simple) { return simple; }
   if (const Refusal refusal = detail::check_corners(brep, f); refusal.code != Code::none) { return refusal; }
   const auto split = first_of(AtNonConvexCorner{}, AtLeastOverlap{normal(brep, f)});
   Result<Parts> parts = split_recursively(brep, f, split, Convex{} || triangles);
   if (!parts) { return parts.refusal(); }
-  return std::move(parts->faces);
+  if (parts->unfinished.empty()) { return std::move(parts->faces); }
+  detail::take_back(brep, *parts);
+  return simple.refusal();
 }
 
 }  // namespace brep

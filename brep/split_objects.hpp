@@ -88,7 +88,8 @@ struct NiceSplit {
 };
 
 // For faces that no inner diagonal cuts, because they come within rounding of themselves or are warped: of the triangulation that overlaps
-// least (least_overlap.hpp), the diagonal that comes nearest to halving the corners. Finds a place in every face of four and more edges.
+// least (least_overlap.hpp), the diagonal that comes nearest to halving the corners. Finds a place in every face of 4 to
+// most_corners_of_least_overlap edges.
 // The parts are seen along the normal of the whole face, because those without area have none of their own.
 struct AtLeastOverlap {
   glm::dvec3 normal{0.0};
@@ -96,7 +97,7 @@ struct AtLeastOverlap {
   Cut operator()(const B& brep, FaceId f) const {
     const auto loop = detail::loop_of(brep, f);
     const std::size_t n = loop.size();
-    if (n < 4) { return {}; }
+    if (n < 4 || n > most_corners_of_least_overlap) { return {}; }
     std::size_t most = 1;  // corners on the smaller side of the diagonal
     Cut best;
     for (const auto& [i, k, j] : least_overlap(Outline{Polygon(positions(brep, f)), normal})) {

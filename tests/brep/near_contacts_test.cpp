@@ -79,3 +79,17 @@ TEST_CASE("an outline within rounding of itself: its ears and its nearly convex 
     by_parts.check();
   }
 }
+
+TEST_CASE("an outline of many corners that crosses itself everywhere is refused, and nothing changes") {
+  const std::uint32_t seed = std::random_device{}();
+  INFO("seed " << seed);
+  shapes::Random random(seed);
+  std::vector<glm::dvec3> points(most_corners_of_least_overlap + 500);
+  for (glm::dvec3& p : points) { p = {random.unit(), random.unit(), 0.0}; }
+  Mesh m = pillow(points);
+  const auto parts = split_nearly_simple(m, FaceId{0});
+  REQUIRE_FALSE(parts);
+  CHECK(parts.refusal().code == Code::not_simple);
+  CHECK(m.face_count() == 2);
+  CHECK(degree(m, FaceId{0}) == points.size());
+}
