@@ -55,18 +55,18 @@ inline constexpr std::size_t most_corners_of_least_overlap = 1024;
       apex[i * n + j] = static_cast<std::uint32_t>(best_apex);
     }
   }
-  std::vector<std::array<std::uint32_t, 3>> triangles;
+  std::vector<std::array<std::uint32_t, 3>> result;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> edges{{0, static_cast<std::uint32_t>(n - 1)}};
   while (!edges.empty()) {
     const auto [i, j] = edges.back();
     edges.pop_back();
     if (j - i < 2) { continue; }
     const std::uint32_t k = apex[i * n + j];
-    triangles.push_back({i, k, j});
+    result.push_back({i, k, j});
     edges.push_back({i, k});
     edges.push_back({k, j});
   }
-  return triangles;
+  return result;
 }
 
 }  // namespace brep
