@@ -55,30 +55,41 @@ inline bool any_above(const Working& mesh, std::uint32_t face, const glm::dvec3&
   });
 }
 
-// The face close in front of a lamp's centre, if the way behind it is free. `side`: 1; or -1 for close behind it and free in front.
-inline std::optional<std::uint32_t> face_before(Working& mesh, const raycast::Bvh& bvh, const std::vector<bool>& lamp, std::uint32_t face,
-                                                double side) {
-  constexpr double close = 0.02, free = 0.2;  // relative to the lamp's size
+// Up to these distances from a surface, relative to its size, a lamp is not meant to shine into the gap: whatever its file says, or where
+// nothing but the order of its corners says so.
+inline constexpr double close = 0.02, close_as_a_guess = 0.1;
+
+struct FaceBefore {
+  std::uint32_t face = 0;
+  double distance = 0.0;  // relative to the size of the lamp
+};
+
+// The face close in front of a lamp's centre, if the way behind it is free for ten times the distance, and of `close` at least. `side`: 1;
+// or -1 for close behind it and free in front.
+inline std::optional<FaceBefore> face_before(Working& mesh, const raycast::Bvh& bvh, const std::vector<bool>& lamp, std::uint32_t face,
+                                             double side) {
   const std::span<const glm::dvec3> outline = mesh.outline(mesh.faces[face]);
   const double size = std::sqrt(brep::area(outline));
   const glm::dvec3 normal = side * raycast::plane_of(outline).normal, middle = brep::centroid(outline);
+  constexpr double reach = 10.0 * close_as_a_guess;
   std::optional<std::uint32_t> before;
-  double nearest = close * size;
-  bool blocked = false;
-  const raycast::Segment through{middle - free * size * normal, (free + close) * size * normal};
+  double nearest = close_as_a_guess * size, behind = HUGE_VAL;
+  const raycast::Segment through{middle - reach * size * normal, (reach + close_as_a_guess) * size * normal};
   static_cast<void>(raycast::any_along(bvh, raycast::SlabTest(through), 0.0, 1.0, [&](std::uint32_t other) {
     const raycast::Plane plane = raycast::plane_of(mesh.outline(mesh.faces[other]));
     const double along = glm::dot(plane.normal, normal), height = glm::dot(plane.point - middle, plane.normal);
     if (other == face || along == 0.0 || raycast::RayFrame(through).winding(mesh.outline(mesh.faces[other])) == 0) { return false; }
     const double way = height / along;  // distance along the lamp's normal
-    if (way < 0.0 && way > -free * size) { blocked = true; }
+    if (way < 0.0) { behind = std::min(behind, -way); }
     if (way > 0.0 && way <= nearest && std::abs(along) > 0.99 && !lamp[other]) {
       nearest = way;
       before = other;
     }
-    return blocked;
+    return false;
   }));
-  return blocked || !before || !any_above(mesh, face, -normal, free * size) ? std::nullopt : before;
+  const double free = std::max(10.0 * close * size, 10.0 * nearest);
+  if (!before || behind < free || !any_above(mesh, face, -normal, free)) { return std::nullopt; }
+  return FaceBefore{*before, nearest / size};
 }
 
 }  // namespace detail
@@ -98,8 +109,8 @@ HALFLIGHT_INLINE std::vector<FlushFace> lay_lamps(Working& mesh, const Topology&
         const auto near = detail::face_before(mesh, beside.bvh(), lamp, f, side);
         if (!near) { continue; }
         const glm::dvec3 normal = brep::vector_area(mesh.outline(mesh.faces[f]));
-        const bool opposite = glm::dot(normal, brep::vector_area(mesh.outline(mesh.faces[*near]))) < 0.0;
-        found.push_back({f, *near, opposite, side > 0.0 ? FlushFace::Gap::before : FlushFace::Gap::behind});
+        const bool opposite = glm::dot(normal, brep::vector_area(mesh.outline(mesh.faces[near->face]))) < 0.0;
+        found.push_back({f, near->face, opposite, side > 0.0 ? FlushFace::Gap::before : FlushFace::Gap::behind, near->distance});
       }
       continue;
     }
@@ -112,16 +123,17 @@ HALFLIGHT_INLINE std::vector<FlushFace> lay_lamps(Working& mesh, const Topology&
 }
 
 HALFLIGHT_INLINE void turn_lamps(Working& mesh, const Topology& topology, std::span<const Material> materials,
-                                 std::span<const FlushFace> flush, const std::vector<bool>& backs, Shells& shells) {
+                                 std::span<const FlushFace> flush, const std::vector<bool>& backs, bool sides_unknown, Shells& shells) {
   struct Lamp {
     double area = 0.0, front = 0.0, back = 0.0;  // emitting area; parts of it with something directly in front, directly behind
     double gap_before = 0.0, gap_behind = 0.0;   // parts of it with the front of something close in front, close behind
+    double wide_before = 0.0;                    // the same in front, with the distance that counts where the side is a guess
     bool one_sided = true, both_shine = true;
     std::uint32_t polygon = none;
   };
   std::map<std::uint32_t, Lamp> lamps;  // by component
   for (std::size_t first = 0, end = 0; first < flush.size(); first = end) {
-    bool front = false, back = false, before = false, behind = false;
+    bool front = false, back = false, before = false, behind = false, wide = false;
     const std::uint32_t face = flush[first].lamp;
     for (; end < flush.size() && flush[end].lamp == face; ++end) {
       const std::uint32_t under = flush[end].under, component = topology.component[under];
@@ -129,8 +141,10 @@ HALFLIGHT_INLINE void turn_lamps(Working& mesh, const Topology& topology, std::s
       if (shell.role == Role::nothing) { continue; }
       const bool both = shell.role == Role::surface && !shell.one_sided && backs[under];
       const bool opposite = flush[end].opposite != shells.turned(component);
-      before = before || (flush[end].gap == FlushFace::Gap::before && (both || opposite));
-      behind = behind || (flush[end].gap == FlushFace::Gap::behind && (both || !opposite));
+      const bool into_front = flush[end].gap == FlushFace::Gap::before && (both || opposite), near = flush[end].distance <= detail::close;
+      wide = wide || into_front;
+      before = before || (near && into_front);
+      behind = behind || (near && flush[end].gap == FlushFace::Gap::behind && (both || !opposite));
       if (flush[end].gap != FlushFace::Gap::no) { continue; }
       front = front || both || opposite;
       back = back || both || !opposite;
@@ -139,6 +153,7 @@ HALFLIGHT_INLINE void turn_lamps(Working& mesh, const Topology& topology, std::s
     const double area = brep::area(mesh.outline(mesh.faces[face]));
     lamp.gap_before += before ? area : 0.0;
     lamp.gap_behind += behind ? area : 0.0;
+    lamp.wide_before += wide ? area : 0.0;
     lamp.front += front ? area : 0.0;
     lamp.back += back ? area : 0.0;
   }
@@ -153,7 +168,8 @@ HALFLIGHT_INLINE void turn_lamps(Working& mesh, const Topology& topology, std::s
     const bool front = 2.0 * lamp.front > lamp.area, back = 2.0 * lamp.back > lamp.area;
     if (shells.components()[component].role != Role::surface) { continue; }
     const bool before = 2.0 * lamp.gap_before > lamp.area, behind = 2.0 * lamp.gap_behind > lamp.area;
-    if (!front && !back && before && lamp.one_sided) {
+    const bool before_as_a_guess = sides_unknown && 2.0 * lamp.wide_before > lamp.area;
+    if (!front && !back && (before || before_as_a_guess) && lamp.one_sided) {
       shells.turn(component);
       mesh.changed(ChangeKind::lamp_turned, lamp.polygon);
     }

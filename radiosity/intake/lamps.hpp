@@ -23,22 +23,24 @@ struct FlushFace {
   bool opposite = false;  // do they have opposite orientations?
   // If not in contact: is the other face close in front of the lamp, or close behind it?
   enum class Gap : unsigned char { no, before, behind } gap = Gap::no;
+  double distance = 0.0;  // of the gap, relative to the size of the lamp
 };
 
 // Finds all such pairs. A lamp lies on another face if it is within four tolerances of welding (the largest gap that the rounding of six
 // digits can cause between a corner and a plane), or within a thousandth of its own size behind the face or with its front to it. Moves
 // the vertices of the lamp, unless they belong to another surface, too, into the plane of the nearest face. A lamp that lies on nothing
-// is also paired with a parallel face in front of it or behind it at a distance of at most a fiftieth of its size, if the other direction
-// is free for ten times that distance and contains something to light.
+// is also paired with a parallel face in front of it or behind it at a distance of at most a tenth of its size, if the other direction is
+// free for ten times that distance and contains something to light.
 [[nodiscard]] std::vector<FlushFace> lay_lamps(Working& mesh, const Topology& topology, std::span<const Material> materials);
 
 // A lamp of which more than half lies on other faces emits only on the side away from them. Lamps that lie between two visible sides, as
 // of a wall without thickness, stay unchanged. If one side of a lamp faces the front of something close to it, as a panel under a
 // ceiling, it was not meant to light the gap: a one-sided lamp is turned, and a two-sided lamp keeps only its other side. From a gap of a
-// fiftieth of the lamp's size only some percent of the light would escape, and no mesh is fine enough to compute how much. `backs`: by
-// face, is its back visible if it becomes a surface? The roles of the shells must be known.
+// fiftieth of the lamp's size only some percent of the light would escape, and no mesh is fine enough to compute how much. A one-sided lamp
+// whose side is no more than a guess (`sides_unknown`), by the order of its corners, is turned from a gap of up to a tenth of its size.
+// `backs`: by face, is its back visible if it becomes a surface? The roles of the shells must be known.
 void turn_lamps(Working& mesh, const Topology& topology, std::span<const Material> materials, std::span<const FlushFace> flush,
-                const std::vector<bool>& backs, Shells& shells);
+                const std::vector<bool>& backs, bool sides_unknown, Shells& shells);
 
 }  // namespace radiosity::intake
 

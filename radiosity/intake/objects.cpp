@@ -51,7 +51,7 @@ class ObjectMaker {
     shells_.find_roles();
     if (options.sides_unknown || options.open_sides_unknown) { show_both_sides(mesh, topology, options.sides_unknown, shells_); }
     const std::vector<bool> two_sided = faces_with_backs();
-    turn_lamps(mesh, topology, materials, flush_, two_sided, shells_);
+    turn_lamps(mesh, topology, materials, flush_, two_sided, options.open_sides_unknown, shells_);
     mark_decals(mesh, topology, decals_, two_sided, shells_);
     for (std::uint32_t c = 0; c < shells_.components().size(); ++c) {
       const Component& component = shells_.components()[c];
@@ -171,7 +171,9 @@ class ObjectMaker {
 
   [[nodiscard]] std::vector<bool> faces_with_backs() const {
     std::vector<bool> result;
-    for (const Face& face : mesh_.faces) { result.push_back(has_back(face)); }
+    for (std::uint32_t f = 0; f < mesh_.faces.size(); ++f) {
+      result.push_back(has_back(mesh_.faces[f]) || shells_.components()[topology_.component[f]].both_sides);
+    }
     return result;
   }
 
