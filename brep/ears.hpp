@@ -109,11 +109,11 @@ class EarClipper {
 // When all of them turn as the polygon does, they cover each of its points once. A planar polygon that is simple, or would be if its
 // corners moved by a rounding, is cut so, except for rounding.
 [[nodiscard]] inline std::vector<std::array<std::uint32_t, 3>> ears(std::span<const glm::dvec3> polygon) {
-  std::vector<std::array<std::uint32_t, 3>> triangles = detail::EarClipper(polygon).run();
-  if (polygon.size() < 4 || polygon.size() > most_corners_of_least_overlap) { return triangles; }
+  std::vector<std::array<std::uint32_t, 3>> result = detail::EarClipper(polygon).run();
+  if (polygon.size() < 4 || polygon.size() > most_corners_of_least_overlap) { return result; }
   const Outline outline(polygon);
   const auto turned_over = [&](const auto& t) { return outline.side(t[0], t[1], t[2]) < 0; };
-  return std::any_of(triangles.begin(), triangles.end(), turned_over) ? least_overlap(outline) : triangles;
+  return std::any_of(result.begin(), result.end(), turned_over) ? least_overlap(outline) : result;
 }
 
 }  // namespace brep
