@@ -131,8 +131,15 @@ bool AddedLight::refused(std::vector<std::string>& faults) const {
 
 void AddedLight::add_studio() {
   if (file_.cameras.empty()) { file_.cameras.push_back(radiosity::automatic_camera(file_.scene)); }
-  const raycast::Box bounds = radiosity::scene_bounds(file_.scene);
+  const raycast::Box bounds = radiosity::bounds_without_strays(file_.scene);
   const double size = bounds.diameter();
+  const auto strays = std::count_if(file_.scene.objects.begin(), file_.scene.objects.end(), [&](const radiosity::SceneObject& object) {
+    return !bounds.contains(radiosity::placed_bounds(*object.shape, object.placement).centre());
+  });
+  if (strays > 0) {
+    note(counted(static_cast<std::size_t>(strays), "object") + (strays == 1 ? " lies" : " lie") +
+         " ten times as far away as all others reach: outside of the studio, in the dark");
+  }
   constexpr double flat = 0.01;  // a model flatter than this fraction of its size is put above the floor, to be distinguished from it
   const double gap = bounds.hi.z - bounds.lo.z < flat * size ? 0.1 * size : 0.0;
   const glm::dvec3 middle{bounds.centre().x, bounds.centre().y, bounds.lo.z - gap};

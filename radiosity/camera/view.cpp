@@ -59,6 +59,7 @@ HALFLIGHT_INLINE View make_view(const Camera& camera, const PictureSize& size) {
 namespace detail {
 
 // The bounds of the scene without the things that would make the rest small in the picture:
+// - strays (bounds_without_strays);
 // - lamps far outside, such as a sky behind windows, if all else is less than half as large;
 // - flat grounds more than three times as wide as what stands on them;
 // - skies that are one object with their ground, of that width. An object counts as a sky if most of its sheets emit, which is not so for a
@@ -73,11 +74,13 @@ HALFLIGHT_INLINE raycast::Box worth_seeing(const Scene& scene) {
     to.extend(box.lo);
     to.extend(box.hi);
   };
+  const raycast::Box all = bounds_without_strays(scene);
   std::vector<Thing> things;
   raycast::Box rest;
   for (const SceneObject& object : scene.objects) {
     if (std::all_of(object.material.begin(), object.material.end(), shines)) { continue; }
     const raycast::Box box = placed_bounds(*object.shape, object.placement);
+    if (!all.contains(box.centre())) { continue; }
     const auto shining = std::count_if(object.material.begin(), object.material.end(), shines);
     things.push_back({box, 2 * shining > std::ssize(object.material)});
     add(rest, box);
@@ -97,7 +100,6 @@ HALFLIGHT_INLINE raycast::Box worth_seeing(const Scene& scene) {
     }
     add(inner, thing->box);
   }
-  const raycast::Box all = scene_bounds(scene);
   return !things.empty() && all.diameter() > 2.0 * rest.diameter() ? rest : all;
 }
 

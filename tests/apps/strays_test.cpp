@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+// Models with some forgotten parts far away from all others.
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <string>
+
+#include <glm/geometric.hpp>
+
+#include <radiosity/scene/bounds.hpp>
+
+#include "catch.hpp"
+#include "models.hpp"
+
+using models::noted;
+using models::scene;
+
+namespace {
+
+// A box as a group of its own.
+std::string box(const glm::dvec3& lo, const glm::dvec3& hi, int number) {
+  std::string text = "g box" + std::to_string(number) + "\n";
+  for (int k = 0; k < 8; ++k) {
+    text += "v " + std::to_string((k & 1) != 0 ? hi.x : lo.x) + " " + std::to_string((k & 2) != 0 ? hi.y : lo.y) + " " +
+            std::to_string((k & 4) != 0 ? hi.z : lo.z) + "\n";
+  }
+  return text + "f -8 -6 -5 -7\nf -4 -3 -1 -2\nf -8 -7 -3 -4\nf -6 -2 -1 -5\nf -8 -4 -2 -6\nf -7 -5 -1 -3\n";
+}
+
+}  // namespace
+
+TEST_CASE("a model is looked at and lit as it is without its forgotten parts far away") {
+  const unsigned seed = 20261131;
+  INFO("seed " << seed);
+  std::mt19937 random(seed);
+  const auto between = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
+  const auto place = [&] { return glm::dvec3{between(-1, 1), between(-1, 1), between(-1, 1)}; };
+  for (int round = 0; round < 30; ++round) {
+    INFO("round " << round);
+    const int things = 20 + round, strays = 1 + round % std::max(1, things / 10);
+    std::string model, far;
+    for (int i = 0; i < things; ++i) {
+      const glm::dvec3 lo = 5.0 * place();
+      model += box(lo, lo + glm::dvec3{between(0.2, 2), between(0.2, 2), between(0.2, 2)}, i);
+    }
+    for (int i = 0; i < strays; ++i) {
+      const glm::dvec3 lo = between(300, 3000) * glm::normalize(place() + glm::dvec3(0.1));
+      far += box(lo, lo + between(0.1, 100) * glm::dvec3(1.0), things + i);
+    }
+    const apps::SceneFile alone = scene("a.obj", model), with = scene("a.obj", round % 2 == 0 ? model + far : far + model);
+    REQUIRE((alone.cameras.size() == 1 && with.cameras.size() == 1));
+    const double size = radiosity::scene_bounds(alone.scene).diameter();
+    CHECK(glm::distance(with.cameras[0].eye, alone.cameras[0].eye) < 1e-3 * size);
+    const raycast::Box studio = alone.scene.objects[0].shape->bounds(), its = with.scene.objects[0].shape->bounds();
+    CHECK(glm::distance(its.lo, studio.lo) + glm::distance(its.hi, studio.hi) < 1e-3 * size);
+    CHECK(noted(with.notes, "outside of the studio"));
+    CHECK_FALSE(noted(alone.notes, "outside of the studio"));
+  }
+}
+
+TEST_CASE("a row of things ever farther apart, and few things, have no forgotten parts") {
+  for (const int things : {2, 9, 40}) {
+    std::string model;
+    for (int i = 0; i < things; ++i) {
+      const double x = things < 10 && i == things - 1 ? 1000.0 : std::exp(0.2 * i);
+      model += box({x, 0, 0}, {x + 0.5, 1, 1}, i);
+    }
+    const apps::SceneFile file = scene("a.obj", model);
+    CHECK_FALSE(noted(file.notes, "outside of the studio"));
+    CHECK(radiosity::bounds_without_strays(file.scene).diameter() == radiosity::scene_bounds(file.scene).diameter());
+  }
+}
