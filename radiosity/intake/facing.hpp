@@ -17,8 +17,8 @@ namespace radiosity::intake {
 // fronts; in the dark, the side with at least twice the distance to the next surface becomes the front. Walls around closed objects are not
 // turned to the outside. Pieces that are decided in this way are no longer marked as mixed, and polygons given for their backs are removed.
 // A sheet with polygons for both sides may be visible from both: only a side a hundred times darker, like the inside of a solid, is
-// removed. A piece that divides its surroundings, with other faces on both sides along at least half of its border, gets a back if light
-// falls on both of its sides.
+// removed, and neither side of a lamp. A polygon that is turned onto another one is removed, not the other. A piece that divides its
+// surroundings, with other faces on both sides along at least half of its border, gets a back if light falls on both of its sides.
 void turn_to_light(Working& mesh, std::span<const Material> materials, const IntakeOptions& options);
 
 }  // namespace radiosity::intake
