@@ -27,12 +27,15 @@ struct OpenSurfaces {
   std::vector<std::uint32_t> first;    // by component: its first input polygon
   double whole = 0.0, all_open = 0.0;  // sums of area and opening
   double volume = 0.0;  // signed volume, closed by cones over the borders from their centres; negative if most surfaces look inwards
+  raycast::Box model;   // of all components, but for those most of which shines
 
   OpenSurfaces(Working& mesh, const Topology& topology, const Shells& shells)
       : area(shells.components().size()), opening(area), border(area), met(area), first(area.size(), none), ends_(topology.vertices) {
     std::vector<bool> counts;
     for (const Component& component : shells.components()) {
-      counts.push_back(component.role == Role::surface && !component.one_sided && 2.0 * shells.shining_share(component) < 1.0);
+      const bool lamp = 2.0 * shells.shining_share(component) >= 1.0;
+      counts.push_back(component.role == Role::surface && !component.one_sided && !lamp);
+      if (!lamp) { model.extend(component.box); }
     }
     glm::dvec3 normals{0.0}, middle{0.0};
     double length = 0.0;
@@ -72,6 +75,13 @@ struct OpenSurfaces {
   [[nodiscard]] bool are_walls() const {
     constexpr double least_volume = 0.02, most_open = 0.6;
     return volume < -least_volume * std::pow(whole, 1.5) && all_open < most_open * whole;
+  }
+
+  // Does it reach from one end of the model to the other, as the walls of a room do and things in the room do not?
+  [[nodiscard]] bool spans_model(const Component& component) const {
+    constexpr double nearly = 0.9;
+    const glm::dvec3 its = component.box.size(), whole_model = nearly * model.size();
+    return its.x > whole_model.x || its.y > whole_model.y || its.z > whole_model.z;
   }
 
  private:
@@ -119,13 +129,15 @@ HALFLIGHT_INLINE void show_both_sides(Working& mesh, const Topology& topology, b
   constexpr double tol_opening = 0.02;
   const detail::OpenSurfaces open(mesh, topology, shells);
   const auto is_open = [&](std::uint32_t c) { return open.opening[c] > tol_opening * open.area[c] && 2.0 * open.met[c] < open.border[c]; };
-  if (open.are_walls()) {
-    if (!may_turn || shells.components().size() > 1 || is_open(0) || shells.shines(shells.components()[0])) { return; }
+  const std::span<const Component> components = shells.components();
+  const bool walls = open.are_walls();
+  if (walls && may_turn && components.size() == 1 && !is_open(0) && !shells.shines(components[0])) {
     shells.turn(0);
     mesh.changed(ChangeKind::inside_out, open.first[0]);
   }
-  for (std::uint32_t c = 0; c < open.area.size(); ++c) {
-    if (is_open(c) && !shells.shines(shells.components()[c])) { shells.show_both_sides(c); }
+  for (std::uint32_t c = 0; c < components.size(); ++c) {
+    const bool wall = walls && open.spans_model(components[c]);
+    if (is_open(c) && !wall && !shells.shines(components[c])) { shells.show_both_sides(c); }
   }
 }
 

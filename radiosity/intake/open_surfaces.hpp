@@ -3,7 +3,8 @@
 
 // Open surfaces in models whose file does not say which of their sides are seen: a terrain, a cloth, a leaf, a cup without thickness.
 // About half of them have their backs towards the viewer, so they are made to reflect on both sides. Exception: the walls of a room with
-// an opening, because such a room is viewed through the backs of its front walls.
+// an opening, because such a room is viewed through the backs of its front walls. Things that stand in a room are no walls, whether the
+// room is open or closed.
 
 #include <radiosity/intake/shells.hpp>
 #include <radiosity/intake/topology.hpp>

@@ -183,6 +183,38 @@ TEST_CASE("intake: where nothing tells the side, the walls of an open room and b
   }
 }
 
+// Cabinets without thickness, with their fronts inside as most models of Cornell boxes have them, stand in a room, closed or with a
+// wall missing. They are seen from all sides; the room is seen through the backs of its walls.
+TEST_CASE("intake: open boxes that stand in a room reflect on both sides, whichever way they were wound") {
+  const unsigned seed = std::random_device{}();
+  CAPTURE(seed);
+  std::mt19937 random(seed);
+  const auto number = [&](double lo, double hi) { return std::uniform_real_distribution(lo, hi)(random); };
+  for (int run = 0; run < 60; ++run) {
+    CAPTURE(run);
+    const glm::dvec3 size{number(3.0, 8.0), number(3.0, 8.0), number(2.4, 4.0)};
+    const int open_side = run % 7;  // 6: none
+    Soup walls, soup;
+    add_box(walls, glm::dvec3(0.0), size, 1, true);
+    for (std::size_t f = 0; f < walls.count(); ++f) {
+      if (static_cast<int>(f) / 2 != open_side) { soup.polygon(walls.outline(f)); }
+    }
+    const double seen_once = soup.area();
+    for (int k = 0; k < 1 + run % 3; ++k) {
+      Soup box;
+      const glm::dvec3 lo{0.3 + k * (size.x - 0.3) / 3.0, number(0.1, 0.4) * size.y, number(0.0, 1.0) < 0.5 ? 0.0 : 0.1};
+      add_box(box, lo, lo + glm::dvec3(number(0.3, 0.7), number(0.3, 0.5) * size.y, number(0.4, 0.8) * size.z), 1, random() % 4 != 0);
+      const int missing = static_cast<int>(random() % 6);
+      soup.names.push_back("box");
+      for (std::size_t f = 0; f < box.count(); ++f) {
+        if (static_cast<int>(f) / 2 != missing) { soup.polygon(box.outline(f)); }
+      }
+    }
+    const double area = seen_once + 2.0 * (soup.area() - seen_once);
+    CHECK(measure(soup.take_in(unknown_beside_lamps).objects).area == Approx(area).epsilon(1e-6));
+  }
+}
+
 TEST_CASE("intake: walls that stand alone under a sky reflect on both sides, as they do without it") {
   const unsigned seed = std::random_device{}();
   CAPTURE(seed);
