@@ -73,22 +73,19 @@ bool LightViews::lit(const raycast::ScenePoint& at) const {
   });
 }
 
-LightViews::Seen LightViews::seen(const radiosity::Camera& camera, int across, bool with_light) const {
-  const radiosity::View view =
-      radiosity::make_view(camera, {static_cast<std::uint32_t>(across), static_cast<std::uint32_t>(across * 3 / 4)});
-  int rays = 0, fronts = 0, met = 0, bright = 0;
-  for (double y = 0.5; y < view.size.height; y += 1.0) {
-    for (double x = 0.5; x < view.size.width; x += 1.0) {
-      raycast::Segment ray{view.eye, view.direction(x, y)};
-      const auto hit = radiosity::seen_front(objects_, ray);
-      ++rays;
-      met += hit ? 1 : 0;
-      fronts += hit && ray.origin == view.eye ? 1 : 0;
-      bright += hit && with_light && lit(objects_.point(*hit, ray)) ? 1 : 0;
-    }
+LightViews::Seen LightViews::seen(const radiosity::Camera& camera, std::uint32_t across, bool with_light) const {
+  const radiosity::View view = radiosity::make_view(camera, {across, across * 3 / 4});
+  const std::uint32_t rays = view.size.width * view.size.height;
+  Seen of;
+  for (std::uint32_t i = 0; i < rays; ++i) {
+    raycast::Segment ray{view.eye, view.direction(i % across + 0.5, i / across + 0.5)};
+    const auto hit = radiosity::seen_front(objects_, ray);
+    if (!hit) { continue; }
+    of.met += 1.0 / rays;
+    if (ray.origin == view.eye) { of.fronts += 1.0 / rays; }
+    if (with_light && lit(objects_.point(*hit, ray))) { of.lit += 1.0 / rays; }
   }
-  const double all = rays;
-  return {fronts / all, met / all, bright / all};
+  return of;
 }
 
 double LightViews::lit_share(const radiosity::Camera& camera) const {

@@ -56,10 +56,10 @@ class LightViews {
   struct Seen {
     double fronts = 0.0, met = 0.0, lit = 0.0;
   };
-  static constexpr int fine = 24, coarse = 12;  // rays across
+  static constexpr std::uint32_t fine = 24, coarse = 12;  // rays across
 
   // `across`: rays from left to right. Without light, `lit` stays 0.
-  [[nodiscard]] Seen seen(const radiosity::Camera& camera, int across, bool with_light) const;
+  [[nodiscard]] Seen seen(const radiosity::Camera& camera, std::uint32_t across, bool with_light) const;
   [[nodiscard]] bool lit(const raycast::ScenePoint& at) const;
   // The distance to the first surface; 0 if its back is seen or there is none, because the point is then not in the air of a room.
   [[nodiscard]] double free_way(const glm::dvec3& from, const glm::dvec3& direction) const;

@@ -106,26 +106,39 @@ HALFLIGHT_INLINE raycast::Box worth_seeing(const Scene& scene) {
   return !things.empty() && all.diameter() > 2.0 * rest.diameter() ? rest : all;
 }
 
-// Two shares of the rays of a coarse picture, added: those that show a front, among all, which is how large things appear; and among those
-// that meet anything, which is how much of it is no view through backs into the open.
+// Three shares of the rays of a coarse picture, added: those that show a front, among all, which is how large things appear; the same among
+// those that meet anything, which is how much of it is no view through backs into the open; and of five directions from each place that is
+// seen, upright and at 63 degrees, those in which others lie before it, as walls do before the floor of a room: how much of an inside is seen.
 HALFLIGHT_INLINE double worth(const raycast::Scene& objects, const Camera& camera) {
   constexpr std::uint32_t across = 24, down = 18;
   const View view = make_view(camera, {across, down});
   std::uint32_t hits = 0, fronts = 0;
+  double within = 0.0;
   for (std::uint32_t i = 0; i < across * down; ++i) {
     raycast::Segment ray{view.eye, view.direction(i % across + 0.5, i / across + 0.5)};
-    const bool front = seen_front(objects, ray).has_value();
-    fronts += front ? 1u : 0u;
+    const auto front = seen_front(objects, ray);
     hits += front || ray.origin != view.eye ? 1u : 0u;
+    if (!front) { continue; }
+    ++fronts;
+    const raycast::ScenePoint at = objects.point(*front, ray);
+    const glm::dvec3 aside = glm::normalize(glm::cross(at.normal, std::abs(at.normal.z) < 0.5 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0))),
+                     along = glm::cross(at.normal, aside);
+    for (const glm::dvec2& tilt : {glm::dvec2{0, 0}, glm::dvec2{2, 0}, glm::dvec2{-2, 0}, glm::dvec2{0, 2}, glm::dvec2{0, -2}}) {
+      raycast::Segment outwards{at.position, at.normal + tilt.x * aside + tilt.y * along};
+      within += seen_front(objects, outwards, at.object, at.sheet) ? 0.2 : 0.0;
+    }
   }
-  return fronts > 0 ? static_cast<double>(fronts) / (across * down) + static_cast<double>(fronts) / hits : 0.0;
+  if (fronts == 0) { return 0.0; }
+  const double shown = fronts;
+  return shown / (across * down) + shown / hits + within / shown;
 }
 
 }  // namespace detail
 
-HALFLIGHT_INLINE std::optional<raycast::Hit> seen_front(const raycast::Scene& objects, raycast::Segment& ray) {
+HALFLIGHT_INLINE std::optional<raycast::Hit> seen_front(const raycast::Scene& objects, raycast::Segment& ray, std::uint32_t owner,
+                                                        std::uint32_t sheet) {
   constexpr int most = 64;  // limit: only backs are passed, but rounding might repeat one endlessly
-  auto hit = objects.closest(ray);
+  auto hit = objects.closest(ray, owner, sheet);
   for (int passed = 0; passed < most && hit && !hit->front; ++passed) {
     ray.origin += hit->t * ray.direction;
     hit = objects.closest(ray, hit->object, hit->sheet);

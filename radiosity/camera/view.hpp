@@ -58,15 +58,18 @@ struct View {
 [[nodiscard]] View make_view(const Camera& camera, const PictureSize& size);
 
 // What a picture shows along a ray: the first front, for rays pass through the backs of surfaces. The ray begins at the last of these, then.
-[[nodiscard]] std::optional<raycast::Hit> seen_front(const raycast::Scene& objects, raycast::Segment& ray);
+// `owner`, `sheet`: of the surface on which it begins, as in raycast::Scene::closest.
+[[nodiscard]] std::optional<raycast::Hit> seen_front(const raycast::Scene& objects, raycast::Segment& ray,
+                                                     std::uint32_t owner = raycast::no_object,
+                                                     std::uint32_t sheet = raycast::unknown_sheet);
 
 // Views of the whole scene from outside, from four sides, slightly from above (z is up). `forward` reaches to the middle of the scene. Back
 // faces are not drawn, so that one looks into a room as into a doll's house. Lamps far outside, which would make all else appear less than
 // half as large, are left out of the views.
 [[nodiscard]] std::array<Camera, 4> outside_cameras(const Scene& scene);
 
-// The one from which clearly more is seen of the fronts of things, if there is one, else the first: a room that is open on one side is seen
-// through that side.
+// The one from which clearly more is seen of the fronts and of the inside of things, if there is one, else the first: a room that is open on
+// one side is seen through that side.
 [[nodiscard]] Camera automatic_camera(const Scene& scene);
 
 }  // namespace radiosity

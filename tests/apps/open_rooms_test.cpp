@@ -146,3 +146,25 @@ TEST_CASE("the picture of a room with an open side looks away from it, from with
     }
   }
 }
+
+// The walls of such a file show both sides, so that none hides less than another, and a studio lights all of them. Rooms about as wide as
+// deep, because the opening of a long one is small from outside.
+TEST_CASE("without a lamp, too, a room with an open side is seen through that, though its walls have two sides") {
+  const unsigned seed = std::random_device{}();
+  INFO("seed " << seed);
+  std::mt19937 random(seed);
+  int rooms = 0;
+  for (int round = 0; rooms < 24; ++round) {
+    const OpenRoom room = open_room(random, round % 4);
+    const double depth = room.size[room.open / 2], width = room.size[1 - room.open / 2];
+    if (depth > 1.3 * width || width > 1.3 * depth || 2.0 * room.size.z < width) { continue; }
+    ++rooms;
+    apps::ModelOptions options;
+    options.up = apps::UpAxis::z;
+    const apps::SceneFile file = models::scene("a.obj", room.obj, {}, options);
+    CHECK(models::noted(file.notes, "put into a studio"));
+    CAPTURE(round, room.open, room.size.x, room.size.y, room.size.z);
+    REQUIRE_FALSE(file.cameras.empty());
+    CHECK(file.cameras[0].forward[room.open / 2] * (room.open % 2 == 0 ? -1.0 : 1.0) < 0.0);
+  }
+}
