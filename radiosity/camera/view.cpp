@@ -108,7 +108,8 @@ HALFLIGHT_INLINE raycast::Box worth_seeing(const Scene& scene) {
 
 // Three shares of the rays of a coarse picture, added: those that show a front, among all, which is how large things appear; the same among
 // those that meet anything, which is how much of it is no view through backs into the open; and of five directions from each place that is
-// seen, upright and at 63 degrees, those in which others lie before it, as walls do before the floor of a room: how much of an inside is seen.
+// seen, upright and at 63 degrees, those in which others lie before it, as walls do before the floor of a room: how much of an inside is
+// seen.
 HALFLIGHT_INLINE double worth(const raycast::Scene& objects, const Camera& camera) {
   constexpr std::uint32_t across = 24, down = 18;
   const View view = make_view(camera, {across, down});

@@ -57,7 +57,7 @@ struct View {
 // Requires that camera.forward is not zero and camera.up not parallel to it.
 [[nodiscard]] View make_view(const Camera& camera, const PictureSize& size);
 
-// What a picture shows along a ray: the first front, for rays pass through the backs of surfaces. The ray begins at the last of these, then.
+// What a picture shows along a ray: the first front, for rays pass through backs. The ray then begins at the last of these.
 // `owner`, `sheet`: of the surface on which it begins, as in raycast::Scene::closest.
 [[nodiscard]] std::optional<raycast::Hit> seen_front(const raycast::Scene& objects, raycast::Segment& ray,
                                                      std::uint32_t owner = raycast::no_object,
@@ -68,8 +68,8 @@ struct View {
 // half as large, are left out of the views.
 [[nodiscard]] std::array<Camera, 4> outside_cameras(const Scene& scene);
 
-// The one from which clearly more is seen of the fronts and of the inside of things, if there is one, else the first: a room that is open on
-// one side is seen through that side.
+// The one from which clearly more is seen of the fronts and of the inside of things, if there is one, else the first: a room that is open
+// on one side is seen through that side.
 [[nodiscard]] Camera automatic_camera(const Scene& scene);
 
 }  // namespace radiosity

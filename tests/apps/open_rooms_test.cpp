@@ -22,6 +22,7 @@
 #include "apps/intake/light_views.hpp"
 #include "catch.hpp"
 #include "models.hpp"
+#include "program.hpp"
 
 namespace {
 
@@ -167,4 +168,24 @@ TEST_CASE("without a lamp, too, a room with an open side is seen through that, t
     REQUIRE_FALSE(file.cameras.empty());
     CHECK(file.cameras[0].forward[room.open / 2] * (room.open % 2 == 0 ? -1.0 : 1.0) < 0.0);
   }
+}
+
+TEST_CASE("a scene of halflight without a camera is looked at from where its light is seen") {
+  const program::Place place;
+  const std::string room =
+      "material grey reflectance 0.5\nmaterial lamp emission 10\nbox room from 0 0 0 to 4 3 2.5 inside material grey\n"
+      "polygon lamp material lamp {\n vertex 1 1 2.4\n vertex 1 2 2.4\n vertex 2 2 2.4\n vertex 2 1 2.4\n}\n";
+  const std::string house =
+      "material grey reflectance 0.5\nmaterial lamp emission 10\n"
+      "difference house material grey {\n box block from -0.2 -0.2 -0.2 to 4.2 3.2 2.7\n box room from 0 0 0 to 4 3 2.5\n}\n" +
+      room.substr(room.find("polygon"));
+  place.write("room.scene", room);
+  place.write("house.scene", house);
+  place.write("with.scene", house + "camera own eye 9 9 9 target 0 0 0\n");
+  const std::string coarse = " --size 24x18 --epsilon 0.1 --quiet --audit 0 --threads 1";
+  CHECK(place.run("render room.scene -o a.png" + coarse).out.find("camera automatic") != std::string::npos);
+  const program::Run run = place.run("render house.scene -o a.png" + coarse);
+  CHECK(run.out.find("camera inside") != std::string::npos);
+  CHECK(run.out.find("the camera stands in the room of a lamp") != std::string::npos);
+  CHECK(place.run("render with.scene -o a.png" + coarse).out.find("camera own") != std::string::npos);
 }
