@@ -8,6 +8,7 @@
 #include <radiosity/scene/material.hpp>
 #include <radiosity/support/left_out.hpp>
 
+#include "apps/scene_file.hpp"
 #include "apps/text.hpp"
 
 namespace apps {
@@ -82,9 +83,9 @@ class Text {
   void errors() {
     out_ += "error (RMS, relative to the RMS of the reflected radiosity; 95 % interval)\n";
     if (audit_.picture_error) {
-      out_ += picture_error_text(*audit_.picture_error, report_.picture ? report_.picture->camera : "");
+      out_ += picture_error_text(*audit_.picture_error, report_.picture ? report_.picture->camera.name : "");
     } else if (report_.picture && !report_.picture_error_unknown.empty()) {
-      row("picture " + report_.picture->camera, "unknown: " + report_.picture_error_unknown);
+      row("picture " + report_.picture->camera.name, "unknown: " + report_.picture_error_unknown);
     }
     if (report_.options.reconstruction != radiosity::Reconstruction::none) { row("surfaces", error_text(audit_.surface_error)); }
     row("leaf constants", error_text(audit_.leaf_error));
@@ -230,6 +231,7 @@ class Text {
     const auto method = static_cast<std::size_t>(report_.picture ? report_.picture->method : PictureMethod::mesh);
     say("lightmap", "{lightmap.width} x {lightmap.height}, texels of {lightmap.texel} m");
     say("picture", std::string("{picture.width} x {picture.height}, ") + shows[method] + ", camera {picture.camera}");
+    if (report_.picture) { row("", "--camera \"" + camera_text(report_.picture->camera) + "\""); }
   }
 
   void lists() {

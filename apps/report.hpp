@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <radiosity/camera/tone.hpp>
+#include <radiosity/camera/view.hpp>
 #include <radiosity/result/audit.hpp>
 #include <radiosity/result/error_estimate.hpp>
 #include <radiosity/scene/options.hpp>
@@ -25,7 +26,7 @@ inline constexpr const char* name(PictureMethod method) {
 }
 
 struct PictureReport {
-  std::string camera;
+  radiosity::Camera camera;
   unsigned width = 0;
   unsigned height = 0;
   PictureMethod method = PictureMethod::mesh;

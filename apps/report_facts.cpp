@@ -5,6 +5,8 @@
 #include <array>
 #include <utility>
 
+#include <glm/vec3.hpp>
+
 #include <radiosity/result/audit.hpp>
 #include <radiosity/result/error_estimate.hpp>
 #include <radiosity/scene/options.hpp>
@@ -126,7 +128,13 @@ void add_settings(Facts& facts, const Report& report) {
     facts.add("lightmap", {});
   }
   if (!report.picture) { return facts.add("picture", {}); }
-  facts.add("picture.camera", report.picture->camera);
+  const radiosity::Camera& camera = report.picture->camera;
+  const auto vector = [&](const char* path, const glm::dvec3& v) { facts.add(path, [v](JsonWriter& json) { json.value(v); }); };
+  facts.add("picture.camera", camera.name);
+  vector("picture.eye", camera.eye);
+  vector("picture.target", camera.eye + camera.forward);
+  vector("picture.up", camera.up);
+  facts.add("picture.fov", camera.field_of_view);
   facts.add_all("1", "picture.", "width", report.picture->width, "height", report.picture->height);
   facts.add("picture.method", std::string(name(report.picture->method)));
 }

@@ -107,6 +107,9 @@ struct SceneResult : ErrorReport {
 // Parses the clauses of a camera statement, such as "eye 1 2 1.5 target 0 0 1 fov 60"; commas count as spaces. If the clauses are invalid,
 // returns nothing and a sentence in `fault`.
 [[nodiscard]] std::optional<radiosity::Camera> parse_camera(std::string_view clauses, std::string& fault);
+// The clauses that describe this view, to be changed a little by a person: "eye 1 2 1.5 target 0 0 1 fov 60". Positions are rounded to a
+// part in 10^5 of the way from eye to target, or of the eye's coordinates if these are smaller. Without `up` where it is z, the default.
+[[nodiscard]] std::string camera_text(const radiosity::Camera& camera);
 // Does the text begin with the word of such a clause, so that it is not the name of a camera?
 [[nodiscard]] bool begins_camera(std::string_view text);
 

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "apps/files.hpp"
+#include "apps/intake/added_light.hpp"
 #include "apps/mesh_file.hpp"
 #include "apps/text.hpp"
 
@@ -88,6 +89,10 @@ std::optional<SceneFile> load_own(const std::string& path, const std::string& te
     sentence ? complain(*sentence) : static_cast<void>(std::fputs(to_text(result, shown(path)).c_str(), stderr));
     code = ExitCode::invalid_input;
     return std::nullopt;
+  }
+  if (result.file->cameras.empty()) {
+    const std::vector<radiosity::Room> no_rooms;
+    AddedLight(*result.file, no_rooms, {}, false).look_for_light();
   }
   return std::move(result.file);
 }

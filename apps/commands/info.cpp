@@ -76,8 +76,7 @@ std::string cameras(const SceneFile& file) {
       "cameras: " + std::to_string(file.cameras.size()) + (file.cameras.empty() ? " (render uses an automatic view)\n" : "\n");
   for (std::size_t i = 0; i < file.cameras.size() && i < longest_list; ++i) {
     const radiosity::Camera& camera = file.cameras[i];
-    out += "  " + left(camera.name, 18) + "eye " + triple(camera.eye) + "   look " + triple(camera.forward) + "   fov " +
-           formatted("%.6g", camera.field_of_view) + "\n";
+    out += "  " + left(camera.name, 18) + camera_text(camera) + "\n";
   }
   return out + and_more(file.cameras.size(), longest_list);
 }

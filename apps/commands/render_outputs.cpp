@@ -225,7 +225,7 @@ const radiosity::Picture* drawn(Artist& artist, const radiosity::Solution& solut
     method = PictureMethod::mesh;
     picture = artist.draw_mesh(solution.shown(), tone);
   }
-  report.picture = PictureReport{artist.camera().name, artist.size().width, artist.size().height, method};
+  report.picture = PictureReport{artist.camera(), artist.size().width, artist.size().height, method};
   watch.lap("picture");
   if (std::string sentence = warning_of_dark_picture(*picture, artist.file(), artist.view()); !sentence.empty()) {
     report.audit.warnings.push_back(std::move(sentence));

@@ -19,7 +19,6 @@
 #include <radiosity/scene/bounds.hpp>
 #include <radiosity/scene/scene.hpp>
 
-#include "apps/intake/light_views.hpp"
 #include "apps/text.hpp"
 #include "apps/words.hpp"
 
@@ -38,23 +37,36 @@ void AddedLight::look_for_light() {
     if (views.lit_share(file_.cameras[i]) < LightViews::tol_dark) { dark.push_back("'" + file_.cameras[i].name + "'"); }
     if (file_.cameras[i].name == "inside") { return; }
   }
-  double enough = LightViews::tol_dark;
-  if (file_.cameras.empty()) {
-    const double from_outside = views.lit_share(radiosity::automatic_camera(file_.scene));
-    if (from_outside >= LightViews::little_light) { return; }
-    if (from_outside >= LightViews::tol_dark) { enough = LightViews::much_light; }
-  } else if (dark.empty()) {
+  if (file_.cameras.empty()) { return choose_view(views); }
+  if (dark.empty()) { return; }
+  auto inside = views.inside();
+  const bool helps = inside && inside->lit >= LightViews::tol_dark;
+  note((dark.size() == 1 ? "camera " + dark[0] + " sees" : counted(dark.size(), "camera") + " see") +
+       " next to nothing that a lamp shines on" + (helps && !eye_chosen_ ? "; --camera inside stands in the room of a lamp" : ""));
+  if (helps) { file_.cameras.push_back(std::move(inside->camera)); }
+}
+
+void AddedLight::choose_view(const LightViews& views) {
+  const double usual = views.lit_share(radiosity::automatic_camera(file_.scene));
+  if (usual >= LightViews::little_light) { return; }
+  double most = 0.0;
+  radiosity::Camera best;
+  for (const radiosity::Camera& camera : radiosity::outside_cameras(file_.scene)) {
+    const double share = views.lit_share(camera);
+    if (share > most) {
+      most = share;
+      best = camera;
+    }
+  }
+  if (most >= LightViews::much_light) {
+    note("the camera stands outside, on the side from which most of its light is seen");
+    file_.cameras.push_back(std::move(best));
     return;
   }
-  auto camera = views.inside();
-  if (camera && views.lit_share(*camera) < enough) { camera.reset(); }
-  if (file_.cameras.empty()) {
-    if (camera) { note("from outside little is seen of its light: the camera stands in the room of a lamp"); }
-  } else {
-    note((dark.size() == 1 ? "camera " + dark[0] + " sees" : counted(dark.size(), "camera") + " see") +
-         " next to nothing that a lamp shines on" + (camera && !eye_chosen_ ? "; --camera inside stands in the room of a lamp" : ""));
-  }
-  if (camera) { file_.cameras.push_back(std::move(*camera)); }
+  auto inside = views.inside();
+  if (!inside || inside->lit < (usual >= LightViews::tol_dark ? LightViews::much_light : LightViews::tol_dark)) { return; }
+  note("from outside little is seen of its light: the camera stands in the room of a lamp");
+  file_.cameras.push_back(std::move(inside->camera));
 }
 
 // The bounds of the closed rooms that can be seen: from outside, like a doll's house, unless they are within walls with a thickness;

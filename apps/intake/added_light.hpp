@@ -10,6 +10,7 @@
 
 #include <radiosity/intake/polygons.hpp>
 
+#include "apps/intake/light_views.hpp"
 #include "apps/scene_file.hpp"
 
 namespace apps {
@@ -30,10 +31,12 @@ class AddedLight {
   // Such rooms get lamps, too, if a sun lights nothing that is seen.
   bool light_rooms_without_sun(std::vector<std::string>& faults);
 
-  // If cameras see almost no lit surface, adds one inside a lit room.
+  // If the automatic view sees little of the light, adds a camera that sees more, on another side or inside a lit room; if the cameras of
+  // the file see almost no lit surface, one inside.
   void look_for_light();
 
  private:
+  void choose_view(const LightViews& views);
   [[nodiscard]] std::vector<raycast::Box> closed_rooms() const;
   [[nodiscard]] std::vector<raycast::Box> rooms_of_cameras() const;
   bool add_room_lamps(const std::vector<raycast::Box>& rooms);  // false if no lamp fits into them

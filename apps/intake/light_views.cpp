@@ -73,26 +73,24 @@ bool LightViews::lit(const raycast::ScenePoint& at) const {
   });
 }
 
-double LightViews::lit_share(const radiosity::Camera& camera) const {
-  const glm::dvec3 forward = glm::normalize(camera.forward), right = glm::normalize(glm::cross(forward, camera.up)),
-                   up = glm::cross(right, forward);
-  const double half = std::tan(0.5 * camera.field_of_view * std::numbers::pi / 180.0);
-  constexpr int across = 24, down = 18, most_passed = 64;
-  int met = 0, bright = 0;
-  for (int i = 0; i < across * down; ++i) {
-    const double x = 2.0 * (i % across + 0.5) / across - 1.0, y = 0.75 * (1.0 - 2.0 * (i / across + 0.5) / down);
-    const glm::dvec3 direction = forward + half * (x * right + y * up);
-    glm::dvec3 from = camera.eye;
-    auto hit = objects_.closest({from, direction});
-    for (int passed = 0; passed < most_passed && hit && !hit->front; ++passed) {
-      from += hit->t * direction;
-      hit = objects_.closest({from, direction}, hit->object, hit->sheet);
-    }
-    if (!hit || !hit->front) { continue; }
-    ++met;
-    bright += lit(objects_.point(*hit, {from, direction})) ? 1 : 0;
+LightViews::Seen LightViews::seen(const radiosity::Camera& camera, std::uint32_t across, bool with_light) const {
+  const radiosity::View view = radiosity::make_view(camera, {across, across * 3 / 4});
+  const std::uint32_t rays = view.size.width * view.size.height;
+  Seen of;
+  for (std::uint32_t i = 0; i < rays; ++i) {
+    raycast::Segment ray{view.eye, view.direction(i % across + 0.5, i / across + 0.5)};
+    const auto hit = radiosity::seen_front(objects_, ray);
+    if (!hit) { continue; }
+    of.met += 1.0 / rays;
+    if (ray.origin == view.eye) { of.fronts += 1.0 / rays; }
+    if (with_light && lit(objects_.point(*hit, ray))) { of.lit += 1.0 / rays; }
   }
-  return met > 0 ? static_cast<double>(bright) / met : 0.0;
+  return of;
+}
+
+double LightViews::lit_share(const radiosity::Camera& camera) const {
+  const Seen of = seen(camera, fine, true);
+  return of.met > 0.0 ? of.lit / of.met : 0.0;
 }
 
 double LightViews::free_way(const glm::dvec3& from, const glm::dvec3& direction) const {
@@ -100,44 +98,82 @@ double LightViews::free_way(const glm::dvec3& from, const glm::dvec3& direction)
   return hit && hit->front ? hit->t : 0.0;
 }
 
+// An opening ends the way like a wall: behind it, the walls beside, the floor and the ceiling are no longer there.
+double LightViews::way_in_room(const glm::dvec3& from, const glm::dvec3& direction) const {
+  const auto hit = objects_.closest({from, direction});
+  if (hit) { return hit->front ? hit->t : 0.0; }
+  const glm::dvec3 aside{direction.y, -direction.x, 0.0}, up{0.0, 0.0, 1.0};
+  const auto in_room = [&](const glm::dvec3& p) {
+    int around = 0;
+    for (const glm::dvec3& side : {aside, -aside, up, -up}) { around += free_way(p, side) > 0.0 ? 1 : 0; }
+    return around >= 3;  // floor or ceiling may be missing, too
+  };
+  double inside = 0.0, outside = size_;
+  constexpr int halvings = 10;
+  for (int i = 0; i < halvings; ++i) {
+    const double middle = 0.5 * (inside + outside);
+    (in_room(from + middle * direction) ? inside : outside) = middle;
+  }
+  return inside;
+}
+
 std::optional<radiosity::Camera> LightViews::across_room(glm::dvec3 middle) const {
   constexpr double eye_height = 0.6;  // relative to the distance from floor to ceiling
   middle.z -= (1.0 - eye_height) * free_way(middle, {0, 0, -1});
-  glm::dvec3 away{0.0};
-  double most = 0.01 * size_;
+  struct Across {
+    radiosity::Camera camera;
+    double way = 0.0, fronts = 0.0;
+  };
+  std::vector<Across> views;
+  double most = 0.0;
   constexpr int directions = 16;
   for (int i = 0; i < directions; ++i) {
     const double angle = 2.0 * std::numbers::pi * (i + 0.3) / directions;
-    const glm::dvec3 direction{std::cos(angle), std::sin(angle), 0.0};
-    const double way = free_way(middle, direction);
-    if (way > most) {
-      most = way;
-      away = direction;
+    const glm::dvec3 away{std::cos(angle), std::sin(angle), 0.0};
+    const double way = way_in_room(middle, away);
+    if (!(way > 0.01 * size_)) { continue; }
+    radiosity::Camera camera{.name = "inside", .eye = middle + 0.9 * way * away, .field_of_view = 80.0};
+    camera.forward = middle - camera.eye;
+    // If `middle` is between a lamp and the ceiling close above it, it is too high, so the eye is moved to its height between floor and
+    // ceiling.
+    const double below = free_way(camera.eye, {0, 0, -1}), above = free_way(camera.eye, {0, 0, 1});
+    if (below > 0.0 && above > 0.0) { camera.eye.z += eye_height * (below + above) - below; }
+    const double fronts = seen(camera, coarse, false).fronts;
+    most = std::max(most, fronts);
+    views.push_back({std::move(camera), way, fronts});
+  }
+  constexpr double as_good = 0.95;
+  const Across* best = nullptr;
+  for (const Across& view : views) {
+    if (view.fronts >= as_good * most && (best == nullptr || view.way > best->way)) { best = &view; }
+  }
+  if (best == nullptr) { return std::nullopt; }
+  // Without a ceiling or a floor, the view is tilted away from the opening, which turns verticals askew: only for clearly more.
+  constexpr double clearly_more = 0.05;
+  radiosity::Camera camera = best->camera;
+  const double length = glm::length(camera.forward);
+  double shown = best->fronts;
+  for (const double tilt : {-0.2, 0.2, -0.4, 0.4}) {
+    radiosity::Camera tilted = best->camera;
+    tilted.forward.z = tilt * length;
+    const double fronts = seen(tilted, coarse, false).fronts;
+    if (fronts > shown + clearly_more) {
+      shown = fronts;
+      camera = tilted;
     }
   }
-  if (away == glm::dvec3{0.0}) { return std::nullopt; }
-  radiosity::Camera camera{.name = "inside", .eye = middle + 0.9 * most * away};
-  // If `middle` is between a lamp and the ceiling close above it, it is too high, so the eye is moved to its height between floor and
-  // ceiling.
-  const double below = free_way(camera.eye, {0, 0, -1}), above = free_way(camera.eye, {0, 0, 1});
-  if (below > 0.0 && above > 0.0) { camera.eye.z += eye_height * (below + above) - below; }
-  camera.forward = -away;
-  camera.field_of_view = 80.0;
   return camera;
 }
 
-std::optional<radiosity::Camera> LightViews::inside() const {
+std::optional<LightViews::Chosen> LightViews::inside() const {
   constexpr std::size_t most_lamps = 8;
   constexpr double enough = 0.5;
-  std::optional<radiosity::Camera> best;
-  double most = 0.0;
+  std::optional<Chosen> best;
   const auto look = [&](const glm::dvec3& middle) {
-    const std::optional<radiosity::Camera> camera = across_room(middle);
-    const double share = camera && most < enough ? lit_share(*camera) : 0.0;
-    if (share > most) {
-      most = share;
-      best = camera;
-    }
+    if (best && best->lit >= enough) { return; }
+    std::optional<radiosity::Camera> camera = across_room(middle);
+    const double lit = camera ? seen(*camera, fine, true).lit : 0.0;
+    if (lit > (best ? best->lit : 0.0)) { best = {std::move(*camera), lit}; }
   };
   const double off = 1e-4 * size_;
   for (std::size_t i = 0; i < std::min(most_lamps, lamps_.size()); ++i) {

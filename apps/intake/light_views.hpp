@@ -13,6 +13,7 @@
 #include <raycast/object.hpp>
 #include <raycast/scene.hpp>
 
+#include <radiosity/camera/view.hpp>
 #include <radiosity/scene/scene.hpp>
 
 #include "apps/scene_file.hpp"
@@ -34,9 +35,13 @@ class LightViews {
   // rays pass through the backs of surfaces.
   [[nodiscard]] double lit_share(const radiosity::Camera& camera) const;
 
-  // A view across the room of one of the brightest lamps, from its far end: the view that sees most light. Nothing if there is no lamp or
-  // no suitable place. Does not depend on the order of the polygons of a lamp.
-  [[nodiscard]] std::optional<radiosity::Camera> inside() const;
+  struct Chosen {
+    radiosity::Camera camera;
+    double lit = 0.0;  // share of all rays of its picture that meet what is lit
+  };
+  // A view across the room of one of the brightest lamps, from its far end: the view that sees most light. Where the room is open, it looks
+  // away from the opening. Nothing if there is no lamp or no suitable place. Does not depend on the order of the polygons of a lamp.
+  [[nodiscard]] std::optional<Chosen> inside() const;
 
   // The bounds of what is seen from a point all around; nothing if more than a tenth of the directions meet nothing, because light from
   // outside then reaches the surroundings.
@@ -47,9 +52,19 @@ class LightViews {
   [[nodiscard]] std::shared_ptr<const raycast::Object> ceiling_lamp(const raycast::Box& room) const;
 
  private:
+  // Of the rays of a picture: the shares that meet a front first, that meet one after some backs, and one that is lit.
+  struct Seen {
+    double fronts = 0.0, met = 0.0, lit = 0.0;
+  };
+  static constexpr std::uint32_t fine = 24, coarse = 12;  // rays across
+
+  // `across`: rays from left to right. Without light, `lit` stays 0.
+  [[nodiscard]] Seen seen(const radiosity::Camera& camera, std::uint32_t across, bool with_light) const;
   [[nodiscard]] bool lit(const raycast::ScenePoint& at) const;
   // The distance to the first surface; 0 if its back is seen or there is none, because the point is then not in the air of a room.
   [[nodiscard]] double free_way(const glm::dvec3& from, const glm::dvec3& direction) const;
+  // The same, horizontally; in a direction in which the room is open, the distance to the opening.
+  [[nodiscard]] double way_in_room(const glm::dvec3& from, const glm::dvec3& direction) const;
   [[nodiscard]] std::optional<radiosity::Camera> across_room(glm::dvec3 middle) const;
 
   raycast::Scene objects_;

@@ -14,6 +14,7 @@
 #include <radiosity/scene/bounds.hpp>
 
 #include "apps/intake/added_light.hpp"
+#include "apps/intake/camera_up.hpp"
 #include "apps/intake/light_lamps.hpp"
 #include "apps/text.hpp"
 #include "apps/words.hpp"
@@ -33,18 +34,24 @@ class SceneMaker {
  public:
   SceneMaker(Model model, const ModelOptions& options) : model_(std::move(model)), options_(options) {}
 
-  std::optional<SceneFile> scene(UpAxis up, std::vector<std::string>& faults) {
+  std::optional<SceneFile> scene(UpAxis up_of_format, std::vector<std::string>& faults) {
+    const std::optional<UpAxis> of_cameras = options_.up ? std::nullopt : up_of_cameras(model_.cameras, up_of_format);
+    const UpAxis up = options_.up.value_or(of_cameras.value_or(up_of_format));
     given_positions_ = model_.positions;
-    given_z_up_ = options_.up.value_or(up) == UpAxis::z;
-    place(to_metres(options_.up.value_or(up), options_.metres));
+    given_z_up_ = up == UpAxis::z;
+    place(to_metres(up, options_.metres));
     sides_unknown_ = !model_.tells_sides;
     if (!part(faults)) { return std::nullopt; }
     AddedLight added(file_, rooms_, "--lamp MATERIAL, one of " + list_of(names()), options_.camera.has_value());
     if (options_.lamps_wanted && !shines() && !added.light_model(faults)) { return std::nullopt; }
     if (options_.lamps_wanted && only_suns_ && !added.light_rooms_without_sun(faults)) { return std::nullopt; }
     added.look_for_light();
-    note(std::string(1, "xyz"[static_cast<std::size_t>(options_.up.value_or(up))]) + " is taken as up (--up), one unit as " +
-         radiosity::length_text(options_.metres) + " (--units)");
+    const auto letter = [](UpAxis axis) { return std::string(1, "xyz"[static_cast<std::size_t>(axis)]); };
+    if (of_cameras) {
+      note("its cameras stand upright about " + letter(up) + ", not about " + letter(up_of_format) + " as this format wants it; --up " +
+           letter(up_of_format) + " takes the file at its word");
+    }
+    note(letter(up) + " is taken as up (--up), one unit as " + radiosity::length_text(options_.metres) + " (--units)");
     return std::move(file_);
   }
   std::optional<SceneFile> part_alone(const std::vector<glm::dvec3>& eyes, std::vector<std::string>& faults) {

@@ -3,11 +3,15 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <memory>
 #include <system_error>
+
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
 
 #include "apps/scene_file/build.hpp"
 #include "apps/scene_file/grammar.hpp"
@@ -48,6 +52,21 @@ std::optional<radiosity::Camera> parse_camera(std::string_view clauses, std::str
   if (camera) { camera->name = "(given)"; }  // not a valid name in a file
   if (!camera) { fault = "expected the clauses of one camera in one line"; }
   return camera;
+}
+
+std::string camera_text(const radiosity::Camera& camera) {
+  const auto triple = [](const glm::dvec3& v, double size) {
+    const double step = std::pow(10.0, std::floor(std::log10(1e-5 * size)));  // 0 for size 0, when nothing is to be rounded
+    std::string text;
+    for (int i = 0; i < 3; ++i) {
+      text += formatted(" %.15g", step > 0.0 ? std::round(v[i] / step) * step + 0.0 : v[i]);
+    }  // + 0.0: no "-0"
+    return text;
+  };
+  const glm::dvec3 up = glm::normalize(camera.up);
+  const double way = glm::length(camera.forward), place = glm::length(camera.eye);
+  return "eye" + triple(camera.eye, std::min(way, place)) + " target" + triple(camera.eye + camera.forward, way) +
+         (up == glm::dvec3(0.0, 0.0, 1.0) ? std::string() : " up" + triple(up, 1.0)) + formatted(" fov %.6g", camera.field_of_view);
 }
 
 std::optional<std::string> read_text(const std::string& path, std::string& fault) {

@@ -2,9 +2,12 @@
 #include <radiosity/camera/view.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <numbers>
+#include <span>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -103,21 +106,48 @@ HALFLIGHT_INLINE raycast::Box worth_seeing(const Scene& scene) {
   return !things.empty() && all.diameter() > 2.0 * rest.diameter() ? rest : all;
 }
 
-// Share of the rays of a coarse picture whose first hit is a front face.
-HALFLIGHT_INLINE double share_of_fronts(const raycast::Scene& objects, const Camera& camera) {
+// Three shares of the rays of a coarse picture, added: those that show a front, among all, which is how large things appear; the same among
+// those that meet anything, which is how much of it is no view through backs into the open; and of five directions from each place that is
+// seen, upright and at 63 degrees, those in which others lie before it, as walls do before the floor of a room: how much of an inside is
+// seen.
+HALFLIGHT_INLINE double worth(const raycast::Scene& objects, const Camera& camera) {
   constexpr std::uint32_t across = 24, down = 18;
   const View view = make_view(camera, {across, down});
-  std::uint32_t fronts = 0;
+  std::uint32_t hits = 0, fronts = 0;
+  double within = 0.0;
   for (std::uint32_t i = 0; i < across * down; ++i) {
-    const auto hit = objects.closest({view.eye, view.direction(i % across + 0.5, i / across + 0.5)});
-    fronts += hit && hit->front ? 1u : 0u;
+    raycast::Segment ray{view.eye, view.direction(i % across + 0.5, i / across + 0.5)};
+    const auto front = seen_front(objects, ray);
+    hits += front || ray.origin != view.eye ? 1u : 0u;
+    if (!front) { continue; }
+    ++fronts;
+    const raycast::ScenePoint at = objects.point(*front, ray);
+    const glm::dvec3 aside = glm::normalize(glm::cross(at.normal, std::abs(at.normal.z) < 0.5 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0))),
+                     along = glm::cross(at.normal, aside);
+    for (const glm::dvec2& tilt : {glm::dvec2{0, 0}, glm::dvec2{2, 0}, glm::dvec2{-2, 0}, glm::dvec2{0, 2}, glm::dvec2{0, -2}}) {
+      raycast::Segment outwards{at.position, at.normal + tilt.x * aside + tilt.y * along};
+      within += seen_front(objects, outwards, at.object, at.sheet) ? 0.2 : 0.0;
+    }
   }
-  return static_cast<double>(fronts) / (across * down);
+  if (fronts == 0) { return 0.0; }
+  const double shown = fronts;
+  return shown / (across * down) + shown / hits + within / shown;
 }
 
 }  // namespace detail
 
-HALFLIGHT_INLINE Camera automatic_camera(const Scene& scene) {
+HALFLIGHT_INLINE std::optional<raycast::Hit> seen_front(const raycast::Scene& objects, raycast::Segment& ray, std::uint32_t owner,
+                                                        std::uint32_t sheet) {
+  constexpr int most = 64;  // limit: only backs are passed, but rounding might repeat one endlessly
+  auto hit = objects.closest(ray, owner, sheet);
+  for (int passed = 0; passed < most && hit && !hit->front; ++passed) {
+    ray.origin += hit->t * ray.direction;
+    hit = objects.closest(ray, hit->object, hit->sheet);
+  }
+  return hit && hit->front ? hit : std::nullopt;
+}
+
+HALFLIGHT_INLINE std::array<Camera, 4> outside_cameras(const Scene& scene) {
   const raycast::Box bounds = detail::worth_seeing(scene);
   Camera camera;
   camera.name = "automatic";
@@ -125,27 +155,34 @@ HALFLIGHT_INLINE Camera automatic_camera(const Scene& scene) {
   const glm::dvec3 usual = glm::normalize(glm::dvec3(0.45, 1.0, -0.4));
   // The bounding sphere touches the sides of the narrower, vertical opening of a 4:3 picture.
   const double vertical = std::atan(0.75 * std::tan(0.5 * camera.field_of_view * std::numbers::pi / 180.0));
-  const double radius = 0.5 * bounds.diameter();
-  const auto look = [&](const glm::dvec3& forward) {
-    camera.forward = forward;
-    camera.eye = bounds.centre() - forward * (radius / std::sin(vertical));
-  };
-  look(usual);
+  const double distance = 0.5 * bounds.diameter() / std::sin(vertical);
+  std::array<Camera, 4> cameras;
+  std::size_t i = 0;
+  for (const glm::dvec2& to :
+       {glm::dvec2{usual}, glm::dvec2{-usual.y, usual.x}, glm::dvec2{-usual.x, -usual.y}, glm::dvec2{usual.y, -usual.x}}) {
+    const glm::dvec3 forward{to.x, to.y, usual.z};
+    camera.forward = distance > 0.0 ? distance * forward : forward;
+    camera.eye = bounds.centre() - distance * forward;
+    cameras[i++] = camera;
+  }
+  return cameras;
+}
+
+HALFLIGHT_INLINE Camera automatic_camera(const Scene& scene) {
   // A room that is open on one side is viewed through that side, not through the backs of its walls.
   const raycast::Scene objects{placed_objects(scene)};
   constexpr double clearly_more = 0.15;
-  double most = detail::share_of_fronts(objects, camera) + clearly_more;
-  glm::dvec3 best = usual;
-  for (const glm::dvec2& to : {glm::dvec2{-usual.y, usual.x}, glm::dvec2{-usual.x, -usual.y}, glm::dvec2{usual.y, -usual.x}}) {
-    look({to.x, to.y, usual.z});
-    const double share = detail::share_of_fronts(objects, camera);
-    if (share > most) {
-      most = share;
-      best = camera.forward;
+  const std::array<Camera, 4> cameras = outside_cameras(scene);
+  const Camera* best = &cameras.front();
+  double most = detail::worth(objects, *best) + clearly_more;
+  for (const Camera& camera : std::span(cameras).subspan(1)) {
+    const double worth = detail::worth(objects, camera);
+    if (worth > most) {
+      most = worth;
+      best = &camera;
     }
   }
-  look(best);
-  return camera;
+  return *best;
 }
 
 }  // namespace radiosity

@@ -6,11 +6,14 @@
 // View space: x to the right, y down, z forward; a point (x, y, z) falls on the image at (x/z, y/z), and the image
 // spans -half_width..half_width and -half_height..half_height.
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
 
 #include <glm/vec3.hpp>
+
+#include <raycast/scene.hpp>
 
 #include <radiosity/scene/scene.hpp>
 
@@ -54,9 +57,19 @@ struct View {
 // Requires that camera.forward is not zero and camera.up not parallel to it.
 [[nodiscard]] View make_view(const Camera& camera, const PictureSize& size);
 
-// A view of the whole scene from outside, slightly from above (z is up). Back faces are not drawn, so that one looks into a room as into
-// a doll's house. The camera stands on that of four sides from which clearly more front faces are seen, if there is one. Lamps far
-// outside, which would make all else appear less than half as large, are left out of the view.
+// What a picture shows along a ray: the first front, for rays pass through backs. The ray then begins at the last of these.
+// `owner`, `sheet`: of the surface on which it begins, as in raycast::Scene::closest.
+[[nodiscard]] std::optional<raycast::Hit> seen_front(const raycast::Scene& objects, raycast::Segment& ray,
+                                                     std::uint32_t owner = raycast::no_object,
+                                                     std::uint32_t sheet = raycast::unknown_sheet);
+
+// Views of the whole scene from outside, from four sides, slightly from above (z is up). `forward` reaches to the middle of the scene. Back
+// faces are not drawn, so that one looks into a room as into a doll's house. Lamps far outside, which would make all else appear less than
+// half as large, are left out of the views.
+[[nodiscard]] std::array<Camera, 4> outside_cameras(const Scene& scene);
+
+// The one from which clearly more is seen of the fronts and of the inside of things, if there is one, else the first: a room that is open
+// on one side is seen through that side.
 [[nodiscard]] Camera automatic_camera(const Scene& scene);
 
 }  // namespace radiosity

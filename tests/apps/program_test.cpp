@@ -189,6 +189,16 @@ TEST_CASE("a camera in words shows what the same camera in the scene shows, to t
   const std::string commas = "eye 0.2,0.3,0.5 target 2, 1.5, 0.4 up 0.1,0,1 fov 70 size 24,16";
   REQUIRE(place.run("render without.scene -o commas.pfm --camera '" + commas + "'" + coarse).code == 0);
   CHECK(place.read("with.pfm") == place.read("commas.pfm"));
+  // What the report says of the picture's camera can be given back.
+  const program::Run told = place.run("render with.scene -o with.pfm --json a.json" + coarse);
+  REQUIRE(told.code == 0);
+  CHECK(told.out.find("--camera \"eye 0.2 0.3 0.5 target 2 1.5 0.4 up 0.0995") != std::string::npos);
+  const json::Value picture = json::parse(place.read("a.json"))["picture"];
+  CHECK(picture["camera"].string() == "one");
+  for (const auto& [key, x] : {std::pair{"eye", 0.2}, std::pair{"target", 2.0}, std::pair{"up", 0.1}}) {
+    CHECK(picture[key][0].number() == Approx(x));
+  }
+  CHECK(picture["fov"].number() == 70.0);
   const auto refused = [&](const std::string& camera, const std::string& reason) {
     const program::Run run = place.run("render with.scene -o no.pfm --camera '" + camera + "'");
     CHECK(run.code == 2);

@@ -2,7 +2,9 @@
 // What a scene file says is what the scene holds: every statement and every clause.
 #include "catch.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <random>
 #include <string>
 
 #include <glm/geometric.hpp>
@@ -258,4 +260,32 @@ TEST_CASE("the example in the README of the scenes is sound") {
   REQUIRE(file.scene.objects.size() == 15);
   CHECK(file.scene.objects[13].name == "second.back");
   CHECK(file.scene.objects[14].name == "bench");
+}
+
+// Rounded to a part in 10^5 of the way to the target, so that directions differ by at most twice that, and a little for what lies askew.
+TEST_CASE("the text of a camera reads back as the same view, in few digits, at any place and size") {
+  const unsigned seed = std::random_device{}();
+  INFO("seed " << seed);
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  const auto point = [&] { return glm::dvec3(unit(random), unit(random), unit(random)); };
+  const auto parted = [](const glm::dvec3& a, const glm::dvec3& b) { return glm::length(glm::normalize(a) - glm::normalize(b)); };
+  for (int run = 0; run < 500; ++run) {
+    const double size = std::pow(10.0, 8.0 * unit(random)), place = size * std::pow(10.0, 3.0 * unit(random));
+    radiosity::Camera camera;
+    camera.eye = run % 10 == 0 ? glm::dvec3(0.0) : place * point();
+    camera.forward = size * point();
+    if (run % 2 == 0) { camera.up = size * point(); }
+    camera.field_of_view = 90.0 + 80.0 * unit(random);
+    const std::string text = apps::camera_text(camera);
+    std::string fault;
+    const auto read = apps::parse_camera(text, fault);
+    CAPTURE(text, fault, size, place);
+    REQUIRE(read);
+    CHECK(glm::length(read->eye - camera.eye) <= 1e-5 * std::min(glm::length(camera.eye), glm::length(camera.forward)));
+    CHECK(parted(read->forward, camera.forward) < 4e-5);
+    CHECK(parted(read->up, camera.up) < 2e-5);
+    CHECK(read->field_of_view == test::Approx(camera.field_of_view).epsilon(1e-5));
+    if (place < 10.0 * size) { CHECK(text.size() < 150); }
+  }
 }
