@@ -89,7 +89,7 @@ std::optional<double> positive(std::string_view text, bool zero) {
 
 std::string ModelOptions::key() const {
   std::string text = formatted("%.17g", reflectance) + formatted(" %.17g", metres) + (two_sided ? " two-sided" : "") +
-                     (merge ? "" : " as given") + (lamps_wanted ? "" : " unlit");
+                     (merge ? "" : " as given") + (opaque ? " opaque" : "") + (lamps_wanted ? "" : " unlit");
   if (up) { text += " up " + std::to_string(static_cast<int>(*up)); }
   for (const Lamp& lamp : lamps) { text += " lamp " + lamp.material + formatted("=%.17g", lamp.exitance); }
   return text;

@@ -3,6 +3,7 @@
 // in separate files.
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <memory>
 #include <numbers>
 #include <optional>
@@ -70,6 +71,7 @@ class ObjMaterials {
     if (!text) { return notes_.add("the materials in " + mesh_file::shown(library) + " are not known: it " + fault); }
     ModelMaterial* material = nullptr;  // null: one that no face has
     Pictured pictured;
+    std::map<ModelMaterial*, Opacity> opacities;
     Lines lines(*text, true, true);
     while (lines.next()) {
       const std::string_view word = lines.words()[0];
@@ -84,21 +86,46 @@ class ObjMaterials {
         set_color(*material, lines, place);
       } else if (word == "map_Kd" || word == "map_Ke") {
         set_picture(*material, lines, place, pictured);
-      } else if (word == "d" || word == "Tr") {
-        const auto value = mesh_file::to_number(lines.words().back());
-        if (value && *value != (word == "d" ? 1.0 : 0.0)) { notes_.add("materials that let light through are taken as opaque", place); }
+      } else if (word == "d" || word == "Tr" || word == "map_d") {
+        opacities[material].add(lines, place);
       }
     }
     leave_to_pictures(pictured);
+    for (const auto& [of, opacity] : opacities) { set_opacity(*of, opacity); }
   }
 
  private:
-  // Materials with a picture for Kd that can be read, or that cannot, and with one for Ke. They are looked at in the end, because map_Kd
+  // Materials with a picture for Kd that can be read, or that cannot, and likewise for Ke. They are looked at in the end, because map_Kd
   // and Kd may come in either order.
   struct Pictured {
     Pictures<std::string> pictures;
-    std::vector<ModelMaterial*> painted, unseen, glowing;
+    std::vector<ModelMaterial*> painted, unseen, glowing, dark;
   };
+
+  // What a library says about the light that passes through a material. d is the opacity; Tr is one minus the opacity but, where both are
+  // given, for some programs the opacity itself.
+  struct Opacity {
+    std::optional<double> d, tr;
+    bool picture = false;  // map_d: says where the material is opaque
+    std::string place;     // of the first word
+
+    void add(const Lines& lines, const std::string& at) {
+      if (place.empty()) { place = at; }
+      const std::string_view word = lines.words()[0];
+      if (word == "map_d") {
+        picture = true;
+      } else if (const auto value = mesh_file::to_number(lines.words().back())) {  // after options such as -halo
+        (word == "d" ? d : tr) = std::clamp(*value, 0.0, 1.0);
+      }
+    }
+  };
+
+  void set_opacity(ModelMaterial& material, const Opacity& given) {
+    material.opacity = given.picture ? 1.0 : given.d.value_or(1.0 - given.tr.value_or(0.0));
+    if (given.picture || (material.opacity < 1.0 && material.opacity >= least_opacity)) {
+      notes_.add("materials that let light through are taken as opaque", given.place);
+    }
+  }
 
   void set_color(ModelMaterial& material, const Lines& lines, const std::string& place) {
     const std::string_view word = lines.words()[0];
@@ -126,8 +153,10 @@ class ObjMaterials {
       return colors_.picture(static_cast<std::uint32_t>(&material - materials_.data()),
                              reflects ? PolygonColors::Of::reflectance : PolygonColors::Of::emission, picture, place);
     }
-    if (reflects) { pictured.unseen.push_back(&material); }
-    notes_.add("textures are not read: " + std::string(reflects ? "Kd" : "Ke") + " stands for the picture", place);
+    (reflects ? pictured.unseen : pictured.dark).push_back(&material);
+    notes_.add(reflects ? "textures are not read: Kd stands for the picture"
+                        : "surfaces whose emissive picture is not read do not shine (--lamp MATERIAL)",
+               place);
   }
 
   // Programs that have no factor write a colour of 0 beside a picture.
@@ -138,6 +167,8 @@ class ObjMaterials {
     for (ModelMaterial* const of : pictured.painted) {
       if (radiosity::is_black(of->reflectance.value_or(radiosity::Color(0.0)))) { of->reflectance = radiosity::Color(1.0); }
     }
+    // Most of such a picture is usually black.
+    for (ModelMaterial* const of : pictured.dark) { of->emission = radiosity::Color(0.0); }
     for (ModelMaterial* const of : pictured.glowing) {
       if (radiosity::is_black(of->emission)) { of->emission = radiosity::Color(std::numbers::pi); }
     }

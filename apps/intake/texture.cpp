@@ -62,6 +62,7 @@ std::shared_ptr<const Picture> Picture::of_pixels(std::uint32_t width, std::span
       const glm::vec4 pixel(opaque * linear[p[0]], opaque * linear[p[1]], opaque * linear[p[2]], opaque);
       picture->pixels_[row + std::size_t{x} * picture->width_ / width] += pixel;
       sum += glm::dvec4(pixel);
+      picture->most_opaque_ = std::max(picture->most_opaque_, static_cast<double>(p[3]) / 255.0);
     }
   }
   if (!(sum.w > 0.0)) { return nullptr; }

@@ -15,6 +15,7 @@
 
 #include "apps/intake/added_light.hpp"
 #include "apps/intake/light_lamps.hpp"
+#include "apps/intake/panes.hpp"
 #include "apps/text.hpp"
 #include "apps/words.hpp"
 
@@ -58,9 +59,12 @@ class SceneMaker {
     file_.notes = std::move(model_.notes);
     take_materials();
     if (!take_lamps(faults)) { return false; }
+    if (!options_.opaque) { panes_ = Panes(model_, file_.scene.materials); }
+    if (auto sentence = panes_.sentence(model_); !sentence.empty()) { note(std::move(sentence)); }
     take_polygons();
     for (std::size_t i = 0; i < model_.objects.size(); ++i) {
       const radiosity::SceneObject& object = model_.objects[i];
+      if (panes_.has(object)) { continue; }
       if (object.placement.inside) { rooms_.push_back({radiosity::placed_bounds(*object.shape, object.placement), false}); }
       file_.scene.objects.push_back(std::move(model_.objects[i]));
       file_.origins.push_back(model_.origins[i]);
@@ -168,9 +172,8 @@ class SceneMaker {
       const bool shines = shines_by(object);
       if (shines && !object.placement.inside) { options.lamps.push_back(radiosity::placed_sides(*object.shape, object.placement)); }
     }
-    const radiosity::PolygonView view{model_.positions, model_.corners, model_.first_corner, model_.material,
-                                      model_.group,     model_.groups,  two_sided_};
-    radiosity::Intake intake = radiosity::take_in(view, file_.scene.materials, options);
+    radiosity::Intake intake = radiosity::take_in(panes_.others(model_, two_sided_), file_.scene.materials, options);
+    panes_.renumber(intake);
     for (const radiosity::Change& change : intake.changes) {
       const bool worst = radiosity::tells_size(change);
       note(radiosity::sentence(change) +
@@ -213,6 +216,7 @@ class SceneMaker {
   const ModelOptions& options_;
   SceneFile file_;
   std::vector<std::uint8_t> two_sided_;
+  Panes panes_;
   std::vector<glm::dvec3> given_positions_;  // positions in the file
   bool given_z_up_ = false;
   bool sides_unknown_ = false;  // does the format not say which side of an open surface is seen?

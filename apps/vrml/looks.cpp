@@ -65,7 +65,11 @@ ModelMaterial Looks::made(const State& state, const Numbers& numbers, std::size_
   const bool replaces = picture && texture->version == Version::v97 && !(mean.x == mean.y && mean.y == mean.z);
   material.reflectance = (replaces ? glm::dvec3(1.0) : color("diffuseColor", glm::dvec3(0.8))) * mean;
   material.emission = std::numbers::pi * color("emissiveColor", glm::dvec3(0.0));
-  if (values(state, "transparency", 1) > 0 && state.material->number("transparency", 0.0) > 0.0) {
+  if (const std::size_t n = values(state, "transparency", 1); n > 0) {
+    const std::size_t first = numbers[0] < n ? numbers[0] : 0;
+    material.opacity = 1.0 - std::clamp(state.material->find("transparency")->numbers[first], 0.0, 1.0);
+  }
+  if (material.opacity < 1.0 && material.opacity >= least_opacity) {
     notes_.add("materials that let light through are taken as opaque", at_line_of(*state.material));
   }
   return material;
