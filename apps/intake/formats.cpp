@@ -24,6 +24,8 @@ std::string model_endings() {
 }
 
 const ModelFormat* model_format(std::string_view path, std::string_view bytes) {
+  if (has_ending(path, ".wrz")) { return &intake::wrl; }
+  if (has_ending(path, ".gz")) { path.remove_suffix(3); }
   for (const ModelFormat* const format : model_formats()) {
     if (path == "-" ? format->begins(bytes) : has_ending(path, format->ending)) { return format; }
   }

@@ -144,7 +144,8 @@ extern const ModelFormat obj, ply, off, stl, gltf, glb, wrl, mgf_format;
 // ".obj, .gltf, ... or .mgf"
 [[nodiscard]] std::string model_endings();
 
-// By the ending of the name, in upper or lower case; for "-" by the first bytes. Null if no format fits.
+// By the ending of the name, in upper or lower case, without ".gz" (".wrz" is ".wrl.gz"); for "-" by the first bytes. Null if no format
+// fits. `bytes`: decompressed.
 [[nodiscard]] const ModelFormat* model_format(std::string_view path, std::string_view bytes);
 
 }  // namespace apps

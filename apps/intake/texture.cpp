@@ -13,6 +13,8 @@
 
 #include <radiosity/camera/tone.hpp>
 
+#include "apps/gzip.hpp"
+
 #if defined(__clang__)  // stb_image shifts negative numbers
 #pragma clang attribute push(__attribute__((no_sanitize("undefined"))), apply_to = function)
 #endif
@@ -26,6 +28,17 @@
 #if defined(__clang__)
 #pragma clang attribute pop
 #endif
+
+namespace apps {
+
+bool inflate(std::string_view stream, std::span<char> out) {
+  constexpr auto most = static_cast<std::size_t>(std::numeric_limits<int>::max());
+  if (stream.size() > most || out.size() > most) { return false; }
+  const int size = static_cast<int>(out.size());
+  return stbi_zlib_decode_noheader_buffer(out.data(), size, stream.data(), static_cast<int>(stream.size())) == size;
+}
+
+}  // namespace apps
 
 namespace apps::intake {
 

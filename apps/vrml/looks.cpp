@@ -133,14 +133,14 @@ std::shared_ptr<const intake::Picture> picture_of_image(const std::vector<double
 // byte. A surface has the mean of its picture times its diffuse colour.
 std::shared_ptr<const intake::Picture> picture_of(const Node& texture, const SideFile& side_file, Notes& notes) {
   const Field* const image = texture.find("image");
-  const std::string name(texture.word(texture.version == Version::v97 ? "url" : "filename", ""));
+  const std::string_view url = texture.word(texture.version == Version::v97 ? "url" : "filename", "");
   const bool inside = image != nullptr && image->numbers.size() >= 2 && image->numbers[0] * image->numbers[1] != 0.0;
-  if (!inside && name.empty()) { return nullptr; }  // ends the effect of an earlier picture
+  if (!inside && url.empty()) { return nullptr; }  // ends the effect of an earlier picture
   std::string fault;
   std::shared_ptr<const intake::Picture> picture;
   if (inside) {
     picture = picture_of_image(image->numbers);
-  } else if (name.find("://") == name.npos) {
+  } else if (const std::string name = name_beside(texture.file, url); !name.empty()) {
     if (const auto bytes = side_file(name, fault)) { picture = intake::Picture::read(*bytes); }
   }
   notes.add(
