@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // VRML 97: what it shares with VRML 1.0 means the same; what is its own has areas and volumes that are known.
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -10,6 +11,7 @@
 #include <glm/geometric.hpp>
 
 #include <radiosity/scene/bounds.hpp>
+#include <radiosity/visibility/prepare.hpp>
 
 #include "models.hpp"
 #include "vrml_twins.hpp"
@@ -237,6 +239,21 @@ TEST_CASE("VRML 97: prototypes of other files make what prototypes of the file m
                              {"b.wrl", vrml_twins::head + external("\"a.wrl\"") + "Ball { }"}};
   CHECK(noted(read97(external("\"a.wrl\"") + uses + "Shape { geometry Box { } }", circle).notes, "is in another file"));
   CHECK(read97(ball).objects.empty());
+}
+
+// Exporters write solids scaled to nothing, such as the handles of an editor.
+TEST_CASE("VRML 97: solids that are lost in rounding beside the model are left out, small ones are not") {
+  for (const double size : {1e-30, 1e-13, 1e-6, 1e-3}) {
+    CAPTURE(size);
+    const std::string scale = "1e" + std::to_string(static_cast<int>(std::lround(std::log10(size))));
+    const apps::SceneFile file =
+        models::scene("a.wrl", vrml_twins::head + "DEF large Shape { geometry Sphere { } }\nTransform { scale " + scale + " " + scale + " " +
+                                   scale + " children DEF small Shape { geometry Box { } } }");
+    const bool there = std::any_of(file.scene.objects.begin(), file.scene.objects.end(), [](const auto& o) { return o.name == "small"; });
+    CHECK(there == (size > 1e-10));
+    CHECK(noted(file.notes, "1 solid is smaller than 1e-11 of the model: left out") == !there);
+    CHECK(radiosity::prepare(file.scene).faults.empty());
+  }
 }
 
 TEST_CASE("VRML 97: groups, levels, files, colours of pictures, and what has no surface") {
