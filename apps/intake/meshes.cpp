@@ -49,9 +49,19 @@ std::optional<std::string> file_of_name(const std::string& name, const SideFile&
   return bytes || folder == std::string::npos ? bytes : side_file(name.substr(folder + 1), ignored);
 }
 
-// The name of the picture after map_Kd, which may be preceded by options with numbers or words.
+// The name of the picture after map_Kd, which may contain blanks and be preceded by options: -o, -s and -t with up to three numbers, -mm
+// with two, others with one word each.
 std::string picture_of(const Lines& lines) {
-  std::string name(lines.words()[1].starts_with('-') ? lines.words().back() : lines.rest());
+  const auto& words = lines.words();
+  std::size_t first = 1;
+  while (first + 1 < words.size() && words[first].starts_with('-')) {
+    const std::string_view option = words[first++];
+    const bool vector = option == "-o" || option == "-s" || option == "-t";
+    const std::size_t most = vector ? 3 : option == "-mm" ? 2 : 1;
+    for (std::size_t i = 0; i < most && first + 1 < words.size() && (!vector || mesh_file::to_number(words[first])); ++i) { ++first; }
+  }
+  std::string name;
+  for (std::size_t i = first; i < words.size(); ++i) { name.append(i > first ? " " : "").append(words[i]); }
   std::replace(name.begin(), name.end(), '\\', '/');
   return name;
 }
@@ -61,7 +71,7 @@ std::string picture_of(const Lines& lines) {
 class ObjMaterials {
  public:
   ObjMaterials(std::vector<ModelMaterial>& materials, PolygonColors& colors, Notes& notes, const SideFile& side_file)
-      : materials_(materials), colors_(colors), notes_(notes), side_file_(side_file) {
+      : materials_(materials), colors_(colors), notes_(notes), side_file_(side_file), defined_(materials.size(), false) {
     for (std::size_t i = 0; i < materials.size(); ++i) { index_.emplace(materials[i].name, i); }
   }
 
@@ -72,6 +82,7 @@ class ObjMaterials {
     ModelMaterial* material = nullptr;  // null: one that no face has
     Pictured pictured;
     std::map<ModelMaterial*, Opacity> opacities;
+    ++read_;
     Lines lines(*text, true, true);
     while (lines.next()) {
       const std::string_view word = lines.words()[0];
@@ -80,6 +91,7 @@ class ObjMaterials {
       if (word == "newmtl") {
         const auto found = bare ? index_.end() : index_.find(lines.rest());
         material = found == index_.end() ? nullptr : &materials_[found->second];
+        if (material != nullptr) { defined_[found->second] = true; }
       } else if (bare || material == nullptr) {
         continue;
       } else if (word == "Kd" || word == "Ke") {
@@ -92,6 +104,15 @@ class ObjMaterials {
     }
     leave_to_pictures(pictured);
     for (const auto& [of, opacity] : opacities) { set_opacity(*of, opacity); }
+  }
+
+  // To be called after all libraries.
+  void note_undefined() {
+    for (std::size_t m = 0; read_ > 0 && m < materials_.size(); ++m) {
+      if (!defined_[m] && materials_[m].name != "default") {
+        notes_.add("materials are not defined in the libraries of the file", mesh_file::shown(materials_[m].name));
+      }
+    }
   }
 
  private:
@@ -179,6 +200,8 @@ class ObjMaterials {
   Notes& notes_;
   const SideFile& side_file_;
   std::unordered_map<std::string, std::size_t> index_;
+  std::vector<bool> defined_;  // by material
+  std::size_t read_ = 0;       // libraries
 };
 
 // The face's own colour, or the mean of its vertex colours, in linear light; nothing if one of these is unknown.
@@ -225,6 +248,7 @@ ModelResult read(std::string_view bytes, const MeshFormat& format, const SideFil
   }
   ObjMaterials materials(model.materials, colors, notes, side_file);
   for (const std::string& library : mesh.libraries) { materials.read(library); }
+  materials.note_undefined();
   colors.apply(model, notes);
   model.notes = std::move(mesh.notes);
   for (std::string& note : notes.take()) { model.notes.push_back(std::move(note)); }

@@ -25,7 +25,9 @@ class Parser {
     if (ok() && root->children.empty() && prototypes_.first() == nullptr) {
       fail("expected a node such as " + example() + ", found the end of the file");
     }
-    if (file_ == nullptr && root->children.empty()) { notes_.add("the prototypes of this file have no instances in it"); }
+    if (ok() && file_ == nullptr && prototypes_.first() != nullptr && !any_instance_) {
+      notes_.add("the prototypes of this file have no instances in it");
+    }
     return {ok() ? std::move(root) : nullptr, std::move(prototypes_)};
   }
 
@@ -296,6 +298,7 @@ class Parser {
   }
 
   std::shared_ptr<Node> instance_of(const Prototype& prototype, const Node& call) {
+    any_instance_ = true;
     const auto made = instance(prototype, call.fields, copies_left_);
     if (made == nullptr || made->children.size() >= copies_left_) {
       fail(call.place, "instances of prototypes make more than " + std::to_string(graph_limits.most_visits) + " nodes");
@@ -353,6 +356,7 @@ class Parser {
   Prototypes prototypes_;
   const FieldTypes* fields_of_prototype_ = nullptr;  // of the prototype whose body is being read; null: none
   std::size_t copies_left_ = graph_limits.most_visits;
+  bool any_instance_ = false;
 };
 
 }  // namespace
