@@ -114,6 +114,23 @@ TEST_CASE("VRML: transparency leaves out faces and solids") {
   CHECK(noted(taken("0.8").notes, "1 polygon and 1 solid let most light through"));
 }
 
+TEST_CASE("MGF: td and ts are what passes through") {
+  const auto taken = [](const std::string& glass) {
+    return scene("a.mgf",
+                 "v a =\np 0 0 0\nv b =\np 1 0 0\nv c =\np 1 1 0\nv d =\np 0 0 1\nm wall =\nrd 0.5\no wall\nf a b c\no\nm glass =\n" +
+                     glass + "o pane\nf a b d\no\n");
+  };
+  for (const char* const glass : {"ts 0.9 0\n", "td 0.6\n", "ts 0.3 0\ntd 0.3\n"}) {
+    CAPTURE(glass);
+    CHECK(names(taken(glass)) == std::vector<std::string>{"wall"});
+  }
+  for (const char* const glass : {"", "ts 0.4 0\n", "ts 0.9 0\nts 0 0\n"}) {
+    CAPTURE(glass);
+    CHECK(names(taken(glass)).size() == 2);
+  }
+  CHECK(noted(taken("ts 0.4 0\n").notes, is_opaque));
+}
+
 TEST_CASE("panes: nothing else in the file, or the wish to see them, keeps them") {
   const std::string both = "newmtl glass\nd 0.1\nnewmtl wall\nd 0.1\n";
   const apps::SceneFile all = scene("a.obj", two_squares("a.mtl"), {{"a.mtl", both}});
