@@ -21,17 +21,19 @@
 #include "apps/intake/texture.hpp"
 #include "apps/mesh_file.hpp"
 #include "apps/mesh_file/reading.hpp"
+#include "apps/words.hpp"
 
 namespace apps::intake {
 namespace {
 
 using mesh_file::Lines;
 
-// Parses the three numbers of "Kd r g b"; a single one counts for all three. Nothing for a spectral curve, CIE XYZ or text.
+// Parses the three numbers of "Kd r g b"; a single one counts for all three, what follows the third not at all. Nothing for a spectral
+// curve, CIE XYZ or text.
 std::optional<radiosity::Color> color(const Lines& lines) {
   radiosity::Color c{0.0};
   const std::size_t given = lines.words().size() - 1;
-  if (given != 1 && given != 3) { return std::nullopt; }
+  if (given != 1 && given < 3) { return std::nullopt; }
   for (std::size_t i = 0; i < 3; ++i) {
     const auto value = mesh_file::to_number(lines.words()[given == 1 ? 1 : i + 1]);
     if (!value || *value < 0.0) { return std::nullopt; }
@@ -88,17 +90,17 @@ class ObjMaterials {
       const std::string_view word = lines.words()[0];
       const std::string place = "at " + library + ":" + std::to_string(lines.line());
       const bool bare = lines.words().size() < 2;
-      if (word == "newmtl") {
+      if (same_letters(word, "newmtl")) {
         const auto found = bare ? index_.end() : index_.find(lines.rest());
         material = found == index_.end() ? nullptr : &materials_[found->second];
         if (material != nullptr) { defined_[found->second] = true; }
       } else if (bare || material == nullptr) {
         continue;
-      } else if (word == "Kd" || word == "Ke") {
+      } else if (same_letters(word, "kd") || same_letters(word, "ke")) {
         set_color(*material, lines, place);
-      } else if (word == "map_Kd" || word == "map_Ke") {
+      } else if (same_letters(word, "map_kd") || same_letters(word, "map_ke")) {
         set_picture(*material, lines, place, pictured);
-      } else if (word == "d" || word == "Tr" || word == "map_d") {
+      } else if (same_letters(word, "d") || same_letters(word, "tr") || same_letters(word, "map_d")) {
         opacities[material].add(lines, place);
       }
     }
@@ -133,10 +135,10 @@ class ObjMaterials {
     void add(const Lines& lines, const std::string& at) {
       if (place.empty()) { place = at; }
       const std::string_view word = lines.words()[0];
-      if (word == "map_d") {
+      if (same_letters(word, "map_d")) {
         picture = true;
       } else if (const auto value = mesh_file::to_number(lines.words().back())) {  // after options such as -halo
-        (word == "d" ? d : tr) = std::clamp(*value, 0.0, 1.0);
+        (same_letters(word, "d") ? d : tr) = std::clamp(*value, 0.0, 1.0);
       }
     }
   };
@@ -153,7 +155,7 @@ class ObjMaterials {
     const auto value = color(lines);
     if (!value) {
       notes_.add("expected one or three numbers from 0 on after " + std::string(word) + ": passed over", place);
-    } else if (word == "Kd") {
+    } else if (same_letters(word, "kd")) {
       material.reflectance = *value;
     } else {
       material.emission = std::numbers::pi * *value;
@@ -162,7 +164,7 @@ class ObjMaterials {
 
   void set_picture(ModelMaterial& material, const Lines& lines, const std::string& place, Pictured& pictured) {
     const std::string name = picture_of(lines);
-    const bool reflects = lines.words()[0] == "map_Kd";
+    const bool reflects = same_letters(lines.words()[0], "map_kd");
     const std::shared_ptr<const Picture>& picture = pictured.pictures.of(name, [&] {
       std::string fault;
       const auto bytes = file_of_name(name, side_file_, fault);

@@ -128,6 +128,17 @@ TEST_CASE("MTL: a library is looked for beside the file, too, and what only a lo
   }
 }
 
+TEST_CASE("MTL: words count in upper and lower case, and a colour may be followed by an opacity") {
+  for (const char* const words :
+       {"Kd 0.5 0.25 0.125\nKe 1 2 3\nd 0.6\n", "kd 0.5 0.25 0.125 0.3\nke 1 2 3 1\nD 0.6\n", "KD 0.5 0.25 0.125\nKE 1 2 3\nTR 0.4\n"}) {
+    CAPTURE(words);
+    const apps::ModelMaterial wall = read("a.obj", models::room_obj, {{"room.mtl", std::string("newmtl wall\n") + words}}).materials.at(0);
+    CHECK(wall.reflectance == radiosity::Color(0.5, 0.25, 0.125));
+    CHECK(wall.emission.z == 3.0 * std::numbers::pi);
+    CHECK(wall.opacity == Approx(0.6));
+  }
+}
+
 TEST_CASE("MTL: names of pictures may contain blanks, behind any options") {
   for (const char* const options :
        {"", "-s 1 2 1 ", "-s 2 ", "-o 0 0 -clamp on ", "-mm 0 1 -blendu off -bm 0.5 ", "-t 0 0 0 -imfchan r "}) {
