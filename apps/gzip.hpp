@@ -15,8 +15,8 @@ namespace apps {
 // What the first file in the archive holds; nothing, and a sentence in `fault`, if it is damaged or holds more than `most` bytes.
 [[nodiscard]] std::optional<std::string> gunzip(std::string_view bytes, std::size_t most, std::string& fault);
 
-// Decodes a stream of deflate (RFC 1951) that fills `out` exactly; false if it does not. At least two bytes must follow the stream. (Defined
-// beside the decoder of PNG.)
+// Decodes a stream of deflate (RFC 1951) that fills `out` exactly; false if it does not. At least two bytes must follow the stream.
+// Defined in intake/texture.cpp, beside the decoder of PNG.
 [[nodiscard]] bool inflate(std::string_view stream, std::span<char> out);
 
 }  // namespace apps

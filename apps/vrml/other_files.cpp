@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <filesystem>
 #include <utility>
 
@@ -34,6 +35,15 @@ const ParsedFile* OtherFiles::read(const std::string& name, const std::string& p
     return nullptr;
   }
   return (files_[name] = std::make_unique<ParsedFile>(std::move(parsed))).get();
+}
+
+std::shared_ptr<const Prototype> OtherFiles::prototype(std::string_view url, const std::shared_ptr<const std::string>& in,
+                                                       const std::string& place) {
+  const std::size_t mark = std::min(url.find('#'), url.size());
+  const std::string name = name_beside(in, url.substr(0, mark));
+  const ParsedFile* const file = name.empty() ? nullptr : read(name, place);
+  if (file == nullptr) { return nullptr; }
+  return mark < url.size() ? file->prototypes.find(url.substr(mark + 1)) : file->prototypes.first();
 }
 
 }  // namespace apps::vrml

@@ -249,7 +249,7 @@ class Parser {
       Field urls;
       value({FieldType::Kind::strings, 1, true}, name, urls);
       for (std::size_t i = 0; ok() && elsewhere == nullptr && i < urls.words.size(); ++i) {
-        elsewhere = prototype_at(urls.words[i], place);
+        elsewhere = others_.prototype(urls.words[i], file_, at_line(place, file_));
       }
     } else if (ok()) {
       fields_of_prototype_ = &made->types;
@@ -261,15 +261,6 @@ class Parser {
     prototypes_.leave();
     fields_of_prototype_ = outer_fields;
     prototypes_.declare(name, elsewhere != nullptr ? std::move(elsewhere) : std::move(made));
-  }
-
-  // The prototype at a URL such as "a.wrl#Table"; without a name the first one of the file. Null if it cannot be read.
-  std::shared_ptr<const Prototype> prototype_at(std::string_view url, Place place) {
-    const std::size_t mark = std::min(url.find('#'), url.size());
-    const std::string name = name_beside(file_, url.substr(0, mark));
-    const ParsedFile* const file = name.empty() ? nullptr : others_.read(name, at_line(place, file_));
-    if (file == nullptr) { return nullptr; }
-    return mark < url.size() ? file->prototypes.find(url.substr(mark + 1)) : file->prototypes.first();
   }
 
   // Parses one declaration: field SFColor color 1 0 0, exposedField likewise, eventIn SFBool on, eventOut likewise.

@@ -163,6 +163,8 @@ class OtherFiles {
 
   // Null, and a note, if the file cannot be read; null if it is being read.
   const ParsedFile* read(const std::string& name, const std::string& place);
+  // The prototype at a URL such as "a.wrl#Table" in this file; without a name the first one there. Null if it cannot be read.
+  std::shared_ptr<const Prototype> prototype(std::string_view url, const std::shared_ptr<const std::string>& in, const std::string& place);
 
  private:
   const SideFile& side_file_;

@@ -245,10 +245,10 @@ TEST_CASE("VRML 97: prototypes of other files make what prototypes of the file m
 TEST_CASE("VRML 97: solids that are lost in rounding beside the model are left out, small ones are not") {
   for (const double size : {1e-30, 1e-13, 1e-6, 1e-3}) {
     CAPTURE(size);
-    const std::string scale = "1e" + std::to_string(static_cast<int>(std::lround(std::log10(size))));
-    const apps::SceneFile file =
-        models::scene("a.wrl", vrml_twins::head + "DEF large Shape { geometry Sphere { } }\nTransform { scale " + scale + " " + scale + " " +
-                                   scale + " children DEF small Shape { geometry Box { } } }");
+    const std::string factor = "1e" + std::to_string(static_cast<int>(std::lround(std::log10(size))));
+    const std::string scale = " scale " + factor + " " + factor + " " + factor;
+    const apps::SceneFile file = models::scene("a.wrl", vrml_twins::head + "DEF large Shape { geometry Sphere { } }\nTransform {" + scale +
+                                                            " children DEF small Shape { geometry Box { } } }");
     const bool there = std::any_of(file.scene.objects.begin(), file.scene.objects.end(), [](const auto& o) { return o.name == "small"; });
     CHECK(there == (size > 1e-10));
     CHECK(noted(file.notes, "1 solid is smaller than 1e-11 of the model: left out") == !there);
