@@ -73,6 +73,16 @@ inline constexpr std::string_view base64_digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabc
   return bytes;
 }
 
+// CRC of ISO 3309, as in PNG and gzip.
+[[nodiscard]] inline std::uint32_t crc32(std::string_view bytes) {
+  std::uint32_t crc = ~0U;
+  for (const char byte : bytes) {
+    crc ^= static_cast<unsigned char>(byte);
+    for (int k = 0; k < 8; ++k) { crc = (crc >> 1U) ^ (0xedb88320U & (0U - (crc & 1U))); }
+  }
+  return ~crc;
+}
+
 // 64-bit FNV-1a (Fowler, Noll and Vo 1991): detects accidental damage of files, not manipulation.
 class Checksum {
  public:

@@ -42,7 +42,7 @@ struct SourceFields {
       a(x.eye, x.forward, x.up);
     } else {
       static_assert(std::is_same_v<Type, ModelOptions>);
-      a(x.reflectance, x.metres, x.two_sided, x.merge, x.up, x.lamps, x.camera);
+      a(x.reflectance, x.metres, x.two_sided, x.merge, x.opaque, x.up, x.lamps, x.camera);
     }
   }
 };
@@ -85,7 +85,7 @@ SideFile files_of(const SceneSource& source) {
 
 namespace {
 
-constexpr std::string_view light_opening = "halflight light 2\n";
+constexpr std::string_view light_opening = "halflight light 3\n";
 constexpr std::size_t checksum_digits = 16;  // of a checksum
 
 // A checksum of everything that the light depends on: colours, and shapes by the corners of coarse approximations.

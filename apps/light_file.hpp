@@ -4,7 +4,7 @@
 // The light of a solution in a file (.light), from which further pictures of the scene are drawn without solving it again. It contains
 // the source of the scene, and the mesh with its colours in full precision, so that these pictures are bit-identical.
 //
-//   "halflight light 2\n", key of the scene and "\n", then little-endian, without gaps:
+//   "halflight light 3\n", key of the scene and "\n", then little-endian, without gaps:
 //   uint64: number of bytes of the scene's source; these bytes
 //   uint64: number of positions, of corners, of faces
 //   a position: 3 double;   a corner: uint32 position, 3 double radiosity, 3 float normal

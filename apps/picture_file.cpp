@@ -13,6 +13,7 @@
 #define STBI_WRITE_NO_STDIO
 #include <stb/stb_image_write.h>
 
+#include "apps/bytes.hpp"
 #include "apps/text.hpp"
 
 namespace apps {
@@ -22,16 +23,6 @@ namespace {
 double threshold(std::uint32_t x, std::uint32_t y) {
   const auto fraction = [](double value) { return value - std::floor(value); };
   return 0.001 + 0.998 * fraction(52.9829189 * fraction(0.06711056 * x + 0.00583715 * y));
-}
-
-// CRC of ISO 3309, as in PNG; computed bit by bit because it is only used for a few bytes.
-std::uint32_t crc32(std::string_view bytes) {
-  std::uint32_t crc = 0xffffffff;
-  for (const char byte : bytes) {
-    crc ^= static_cast<std::uint8_t>(byte);
-    for (int k = 0; k < 8; ++k) { crc = (crc >> 1) ^ (0xedb88320u & (0u - (crc & 1u))); }
-  }
-  return ~crc;
 }
 
 std::string big_endian(std::uint32_t value) {

@@ -113,7 +113,8 @@ struct SceneResult : ErrorReport {
 // Does the text begin with the word of such a clause, so that it is not the name of a camera?
 [[nodiscard]] bool begins_camera(std::string_view text);
 
-// The whole file, "-" for the standard input, or nothing and a sentence in `fault` (missing, a directory, unreadable, too large).
+// The whole file, decompressed if it is one of gzip, "-" for the standard input; or nothing and a sentence in `fault` (missing, a
+// directory, unreadable, damaged, too large).
 [[nodiscard]] std::optional<std::string> read_text(const std::string& path, std::string& fault);
 
 }  // namespace apps

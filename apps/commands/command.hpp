@@ -181,6 +181,7 @@ inline constexpr std::uint64_t most_threads = 1024;
 [[nodiscard]] inline std::vector<Argument> with_model_arguments(std::vector<Argument> arguments, ModelOptions& options) {
   arguments.push_back(lamp_argument(options.lamps));
   arguments.push_back(flag("--two-sided", options.two_sided, "of such a file: surfaces that enclose nothing reflect on both sides"));
+  arguments.push_back(flag("--opaque", options.opaque, "of such a file: surfaces that let most light through are opaque, not left out"));
   arguments.push_back(
       above_zero("--reflectance", options.reflectance, most_reflectance,
                  "of such a file: reflectance of materials that have none (default: " + formatted("%g", options.reflectance) + ")"));

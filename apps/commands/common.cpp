@@ -2,6 +2,7 @@
 #include "apps/commands/common.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -12,6 +13,7 @@
 #include "apps/intake/added_light.hpp"
 #include "apps/mesh_file.hpp"
 #include "apps/text.hpp"
+#include "apps/words.hpp"
 
 namespace apps {
 
@@ -38,11 +40,26 @@ std::optional<std::string> load_text(const std::string& path, ExitCode& code) {
 
 namespace {
 
+// The path; or, if there is no such file, that of the only file in its folder whose name differs only in upper and lower case, because many
+// files come from systems on which this makes no difference.
+std::string existing(const std::filesystem::path& path) {
+  std::error_code unknown;
+  if (std::filesystem::exists(path, unknown)) { return path.string(); }
+  std::vector<std::string> alike;
+  std::string small = path.filename().string();
+  std::transform(small.begin(), small.end(), small.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
+  for (std::filesystem::directory_iterator entry(folder, unknown), end; !unknown && entry != end; entry.increment(unknown)) {
+    if (same_letters(entry->path().filename().string(), small)) { alike.push_back(entry->path().string()); }
+  }
+  return alike.size() == 1 ? alike.front() : path.string();
+}
+
 // Reads files named by another one, from its folder or by their absolute path. Files that were read are appended to `read`.
 SideFile beside(const std::string& path, std::vector<FileBeside>& read) {
   return [folder = std::filesystem::path(path).parent_path(), &read](const std::string& name,
                                                                      std::string& fault) -> std::optional<std::string> {
-    const std::string whole = (folder / name).string();
+    const std::string whole = existing(folder / name);
     std::error_code unknown;
     const std::filesystem::file_status status = std::filesystem::status(whole, unknown);
     if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {  // a pipe, for example, might never be written to

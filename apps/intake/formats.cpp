@@ -24,6 +24,8 @@ std::string model_endings() {
 }
 
 const ModelFormat* model_format(std::string_view path, std::string_view bytes) {
+  if (has_ending(path, ".wrz")) { return &intake::wrl; }
+  if (has_ending(path, ".gz")) { path.remove_suffix(3); }
   for (const ModelFormat* const format : model_formats()) {
     if (path == "-" ? format->begins(bytes) : has_ending(path, format->ending)) { return format; }
   }
@@ -89,7 +91,7 @@ std::optional<double> positive(std::string_view text, bool zero) {
 
 std::string ModelOptions::key() const {
   std::string text = formatted("%.17g", reflectance) + formatted(" %.17g", metres) + (two_sided ? " two-sided" : "") +
-                     (merge ? "" : " as given") + (lamps_wanted ? "" : " unlit");
+                     (merge ? "" : " as given") + (opaque ? " opaque" : "") + (lamps_wanted ? "" : " unlit");
   if (up) { text += " up " + std::to_string(static_cast<int>(*up)); }
   for (const Lamp& lamp : lamps) { text += " lamp " + lamp.material + formatted("=%.17g", lamp.exitance); }
   return text;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// glTF 2.0, as text (.gltf) and as binary (.glb): nodes with their matrices, triangles, skins in the pose of the file, materials, cameras,
-// lights; also where Draco or meshopt compresses them. Morphs are ignored with a note. A file that requires an unknown extension is not
-// refused: all geometry that can be read is read.
+// glTF 2.0, as text (.gltf) and as binary (.glb): nodes with their matrices, triangles, morphs and skins in the pose of the file,
+// materials, cameras, lights; also where Draco or meshopt compresses them. A file that requires an unknown extension is not refused: all
+// geometry that can be read is read.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,6 +14,7 @@
 
 #include "apps/bytes.hpp"
 #include "apps/intake/gltf_data.hpp"
+#include "apps/intake/gltf_deform.hpp"
 #include "apps/intake/gltf_looks.hpp"
 #include "apps/intake/gltf_nodes.hpp"
 #include "apps/intake/json_reader.hpp"
@@ -69,21 +70,22 @@ class GltfReader {
     struct Open {
       std::size_t node;
       glm::dmat4 parent;
+      bool hidden = false;  // with its parent
     };
     std::vector<Open> open;
     std::vector<bool> met(nodes.items().size(), false);
-    const auto push = [&](const JsonValue& index, const glm::dmat4& parent) {
+    const auto push = [&](const JsonValue& index, const glm::dmat4& parent, bool hidden) {
       const auto node = index.index();
       if (!node || *node >= met.size()) {
         return error(index.offset(), "there is no such node; the file has " + std::to_string(met.size()));
       }
       if (met[*node]) { return notes_.add("nodes that stand in several places are used once", "node " + std::to_string(*node)); }
       met[*node] = true;
-      open.push_back({*node, parent});
+      open.push_back({*node, parent, hidden});
     };
     const JsonValue& scene = scenes[(*root_)["scene"].index().value_or(0)];
     if (scene) {
-      for (std::size_t i = scene["nodes"].items().size(); i-- > 0;) { push(scene["nodes"][i], glm::dmat4(1.0)); }
+      for (std::size_t i = scene["nodes"].items().size(); i-- > 0;) { push(scene["nodes"][i], glm::dmat4(1.0), false); }
     } else {
       std::vector<bool> child(met.size(), false);
       for (const JsonValue& node : nodes.items()) {
@@ -98,14 +100,16 @@ class GltfReader {
       }
     }
     while (!open.empty() && !errors_.full()) {
-      const auto [index, parent] = open.back();
+      const auto [index, parent, below_hidden] = open.back();
       open.pop_back();
       const JsonValue& node = nodes[index];
       const glm::dmat4 matrix = parent * gltf_matrix(node);
-      if (node["mesh"]) { instances(node, matrix, index); }
+      const bool hidden = below_hidden || !node["extensions"]["KHR_node_visibility"]["visible"].boolean(true);
+      if (hidden && node["mesh"]) { pass_over("hidden nodes are left out", "node " + std::to_string(index)); }
+      if (!hidden && node["mesh"]) { instances(node, matrix, index); }
       if (node["camera"]) { camera(node, matrix); }
-      if (const JsonValue& named = node["extensions"]["KHR_lights_punctual"]["light"]) { light(named, matrix); }
-      for (std::size_t i = node["children"].items().size(); i-- > 0;) { push(node["children"][i], matrix); }
+      if (const JsonValue& named = node["extensions"]["KHR_lights_punctual"]["light"]; named && !hidden) { light(named, matrix); }
+      for (std::size_t i = node["children"].items().size(); i-- > 0;) { push(node["children"][i], matrix, hidden); }
     }
   }
 
@@ -148,16 +152,16 @@ class GltfReader {
       if (errors_.full() || too_large_) { return; }
       model_.begin_part("meshes[" + std::to_string(*node["mesh"].index()) + "].primitives[" + std::to_string(number++) + "] of nodes[" +
                         std::to_string(index) + "] " + mesh_file::shown(model_.groups[group]));
-      triangles(primitive, node["skin"], matrix, group);
+      triangles(primitive, mesh, node, matrix, group);
     }
   }
 
   // The matrix of each vertex of a skinned primitive; nothing for others.
   [[nodiscard]] std::optional<std::vector<glm::dmat4>> skin_matrices(const JsonValue& primitive, const JsonValue& skin,
-                                                                     std::size_t vertices, std::string& fault) {
+                                                                     std::size_t vertices, std::string& fault, const std::string& place) {
     if (!skin) { return std::nullopt; }
     if (in_scene_.empty()) { in_scene_ = gltf_scene_matrices((*root_)["nodes"]); }
-    return gltf_skin((*root_)["skins"][skin.index().value_or(nowhere)], *data_, primitive, in_scene_, vertices, fault);
+    return gltf_skin((*root_)["skins"][skin.index().value_or(nowhere)], *data_, primitive, in_scene_, vertices, fault, notes_, place);
   }
 
   // The indices of the triangle that begins at index i of a list (mode 4), a strip (5) or a fan (6).
@@ -166,14 +170,16 @@ class GltfReader {
     return {mode == 6 ? 0 : i, turned ? i + 2 : i + 1, turned ? i + 1 : i + 2};
   }
 
-  void triangles(const JsonValue& primitive, const JsonValue& skin, const glm::dmat4& matrix, std::uint32_t group) {
+  void triangles(const JsonValue& primitive, const JsonValue& mesh, const JsonValue& node, const glm::dmat4& matrix, std::uint32_t group) {
     const std::string place = "in " + mesh_file::shown(model_.groups[group]);
     std::size_t mode = primitive["mode"] ? primitive["mode"].index().value_or(nowhere) : 4;
     if (mode < 4 || mode > 6) { return pass_over("points and lines have no surface: left out", place); }
-    if (primitive["targets"]) { notes_.add("morph targets are not read: meshes stand as they are drawn", place); }
+    if (!primitive["attributes"]["POSITION"]) {
+      return pass_over("primitives without positions are left out: there is no such accessor", place);
+    }
     std::string fault;
     const auto unpacked = data_->unpack(primitive, fault);
-    const auto positions = unpacked ? data_->numbers(primitive["attributes"]["POSITION"], 3, fault) : std::nullopt;
+    auto positions = unpacked ? data_->numbers(primitive["attributes"]["POSITION"], 3, fault) : std::nullopt;
     const auto given = positions && primitive["indices"] ? data_->numbers(primitive["indices"], 1, fault) : std::nullopt;
     if (!fault.empty()) { return error(primitive.offset(), fault); }
     if (*unpacked) { mode = 4; }  // a compressed mesh is a list of triangles
@@ -187,7 +193,8 @@ class GltfReader {
       too_large_ = true;
       return error(primitive.offset(), "the scene has more than " + std::to_string(most_polygons) + " triangles");
     }
-    const auto skinned = skin_matrices(primitive, skin, vertices, fault);
+    gltf_morph(node, mesh, primitive, *data_, *positions, notes_, place);
+    const auto skinned = skin_matrices(primitive, node["skin"], vertices, fault, place);
     const auto to_scene = [&](std::size_t v) -> const glm::dmat4& { return skinned ? (*skinned)[v] : matrix; };
     if (!fault.empty()) { return error(primitive.offset(), fault); }
     for (std::size_t v = 0; v < vertices; ++v) {

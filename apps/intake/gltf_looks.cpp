@@ -41,7 +41,8 @@ class MaterialReader {
     set_reflectance(material, given, number, place);
     set_emission(material, given, number, place);
     if (given["extensions"]["KHR_materials_unlit"]) { notes_.add("unlit materials are taken as paint of their colour", place); }
-    if (given["extensions"]["KHR_materials_transmission"] || given["alphaMode"].string() == "BLEND") {
+    material.opacity = opacity_of(given);
+    if (material.opacity >= least_opacity && (transmission(given) > 0.0 || given["alphaMode"].string() == "BLEND")) {
       notes_.add("materials that let light through are taken as opaque", place);
     }
     material.two_sided = given["doubleSided"].boolean();
@@ -49,6 +50,27 @@ class MaterialReader {
   }
 
  private:
+  // The share of light that passes through a surface without being refracted twice, as through a body of glass (KHR_materials_volume).
+  static double transmission(const JsonValue& given) {
+    return given["extensions"]["KHR_materials_transmission"]["transmissionFactor"].number(0.0);
+  }
+
+  // A picture counts with its most opaque pixel, because the leaves of a tree, for example, are opaque in parts.
+  double opacity_of(const JsonValue& given) {
+    const JsonValue &extensions = given["extensions"], &glossy = extensions["KHR_materials_pbrSpecularGlossiness"];
+    const JsonValue& base = glossy ? glossy : given["pbrMetallicRoughness"];
+    double alpha = array_of<4>(base[glossy ? "diffuseFactor" : "baseColorFactor"]).value_or(std::array{1.0, 1.0, 1.0, 1.0})[3];
+    const JsonValue& texture = base[glossy ? "diffuseTexture" : "baseColorTexture"];
+    if (const auto picture = texture ? read_picture(texture) : nullptr) { alpha *= picture->most_opaque(); }
+    const std::string& mode = given["alphaMode"].string();
+    if (mode == "MASK") { return alpha < given["alphaCutoff"].number(0.5) ? 0.0 : 1.0; }
+    double opacity = mode == "BLEND" ? std::clamp(alpha, 0.0, 1.0) : 1.0;
+    const bool body = extensions["KHR_materials_volume"]["thicknessFactor"].number(0.0) > 0.0;
+    const bool in_parts(extensions["KHR_materials_transmission"]["transmissionTexture"]);
+    if (!body && !in_parts) { opacity *= 1.0 - std::clamp(transmission(given), 0.0, 1.0); }
+    return opacity;
+  }
+
   void set_reflectance(ModelMaterial& material, const JsonValue& given, std::uint32_t number, const std::string& place) {
     const JsonValue& glossy = given["extensions"]["KHR_materials_pbrSpecularGlossiness"];
     const JsonValue& base = glossy ? glossy : given["pbrMetallicRoughness"];
@@ -71,25 +93,31 @@ class MaterialReader {
     }
     const JsonValue& texture = given["emissiveTexture"];
     if (!texture || radiosity::is_black(material.emission)) { return; }
-    const auto glow = picture_of(texture, "emissive", place);
+    const auto glow = read_picture(texture);
+    if (!glow) {  // most of such a picture is usually black
+      material.emission = radiosity::Color(0.0);
+      return notes_.add("surfaces whose emissive picture is not read do not shine (--lamp MATERIAL)", place);
+    }
     if (lie_alike(texture, color_texture(given))) {
       colors_.picture(number, PolygonColors::Of::emission, glow, place);
-    } else if (glow) {
+    } else {
       notes_.add("pictures on surfaces count with their mean colour", place);
       material.emission *= glow->mean();
     }
   }
 
+  std::shared_ptr<const Picture> read_picture(const JsonValue& texture) {
+    const auto image = root_["textures"][texture["index"].index().value_or(nowhere)]["source"].index();
+    if (!image) { return nullptr; }
+    return pictures_.of(*image, [&] {
+      const auto bytes = data_.picture(*image);
+      return bytes ? Picture::read(*bytes) : nullptr;
+    });
+  }
+
   // Null if it cannot be read, which is noted.
   std::shared_ptr<const Picture> picture_of(const JsonValue& texture, const std::string& factor, const std::string& place) {
-    const auto image = root_["textures"][texture["index"].index().value_or(~std::size_t{0})]["source"].index();
-    std::shared_ptr<const Picture> picture;
-    if (image) {
-      picture = pictures_.of(*image, [&] {
-        const auto bytes = data_.picture(*image);
-        return bytes ? Picture::read(*bytes) : nullptr;
-      });
-    }
+    auto picture = read_picture(texture);
     if (!picture) { notes_.add("textures are not read: the " + factor + " factor stands for the picture", place); }
     return picture;
   }

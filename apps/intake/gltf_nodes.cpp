@@ -5,8 +5,6 @@
 #include <cstddef>
 #include <optional>
 #include <span>
-#include <string>
-#include <utility>
 #include <vector>
 
 #include <glm/gtc/quaternion.hpp>
@@ -14,18 +12,15 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
-#include "apps/text.hpp"
+#include "apps/intake/gltf_data.hpp"
 
 namespace apps::intake {
-namespace {
 
-glm::dmat4 matrix_of(std::span<const double, 16> columns) {
+glm::dmat4 gltf_matrix(std::span<const double, 16> columns) {
   glm::dmat4 matrix(1.0);
   for (std::size_t i = 0; i < 16; ++i) { matrix[static_cast<glm::length_t>(i / 4)][static_cast<glm::length_t>(i % 4)] = columns[i]; }
   return matrix;
 }
-
-}  // namespace
 
 glm::dmat4 gltf_placed(const glm::dvec3& translation, const glm::dquat& rotation, const glm::dvec3& scale) {
   const glm::dmat3 linear = glm::mat3_cast(rotation);
@@ -36,7 +31,7 @@ glm::dmat4 gltf_placed(const glm::dvec3& translation, const glm::dquat& rotation
 }
 
 glm::dmat4 gltf_matrix(const JsonValue& node) {
-  if (const auto m = array_of<16>(node["matrix"])) { return matrix_of(*m); }
+  if (const auto m = array_of<16>(node["matrix"])) { return gltf_matrix(std::span<const double, 16>(*m)); }
   const auto t = array_of<3>(node["translation"]).value_or(std::array{0.0, 0.0, 0.0});
   const auto r = array_of<4>(node["rotation"]).value_or(std::array{0.0, 0.0, 0.0, 1.0});
   const auto s = array_of<3>(node["scale"]).value_or(std::array{1.0, 1.0, 1.0});
@@ -73,47 +68,6 @@ std::vector<glm::dmat4> gltf_scene_matrices(const JsonValue& nodes) {
     }
   }
   return matrices;
-}
-
-std::optional<std::vector<glm::dmat4>> gltf_skin(const JsonValue& skin, GltfData& data, const JsonValue& primitive,
-                                                 std::span<const glm::dmat4> in_scene, std::size_t vertices, std::string& fault) {
-  const auto fail = [&](std::string sentence) {
-    fault = std::move(sentence);
-    return std::nullopt;
-  };
-  const JsonValue &of_joints = primitive["attributes"]["JOINTS_0"], &of_weights = primitive["attributes"]["WEIGHTS_0"];
-  if (!of_joints || !of_weights) { return std::nullopt; }
-  if (!skin) { return fail("there is no such skin"); }
-  const auto joints = data.numbers(of_joints, 4, fault), weights = joints ? data.numbers(of_weights, 4, fault) : std::nullopt;
-  if (!weights) { return std::nullopt; }
-  if (joints->size() < 4 * vertices || weights->size() < 4 * vertices) { return fail("it has fewer joints or weights than vertices"); }
-  const std::size_t count = skin["joints"].items().size();
-  const auto inverse = skin["inverseBindMatrices"] ? data.numbers(skin["inverseBindMatrices"], 16, fault) : std::nullopt;
-  if (!fault.empty()) { return std::nullopt; }
-  if (inverse && inverse->size() < 16 * count) { return fail("its skin has fewer inverse bind matrices than joints"); }
-  std::vector<glm::dmat4> of_joint;
-  for (std::size_t j = 0; j < count; ++j) {
-    const auto node = skin["joints"][j].index();
-    if (!node || *node >= in_scene.size()) { return fail("its skin names a node that does not exist"); }
-    of_joint.push_back(in_scene[*node]);
-    if (inverse) { of_joint.back() *= matrix_of(std::span<const double, 16>(inverse->data() + 16 * j, 16)); }
-  }
-  std::vector<glm::dmat4> result(vertices, glm::dmat4(0.0));
-  for (std::size_t v = 0; v < vertices; ++v) {
-    double sum = 0.0;
-    for (std::size_t k = 4 * v; k < 4 * v + 4; ++k) {
-      const double weight = (*weights)[k], joint = (*joints)[k];
-      if (!(weight > 0.0)) { continue; }
-      if (!(joint >= 0.0 && joint < static_cast<double>(count))) {
-        return fail("a vertex names joint " + formatted("%.0f", joint) + " of " + std::to_string(count));
-      }
-      result[v] += weight * of_joint[static_cast<std::size_t>(joint)];
-      sum += weight;
-    }
-    if (!(sum > 0.0)) { return fail("a vertex has no weight for any joint"); }
-    result[v] /= sum;
-  }
-  return result;
 }
 
 }  // namespace apps::intake

@@ -3,6 +3,7 @@
 // in separate files.
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <memory>
 #include <numbers>
 #include <optional>
@@ -20,17 +21,19 @@
 #include "apps/intake/texture.hpp"
 #include "apps/mesh_file.hpp"
 #include "apps/mesh_file/reading.hpp"
+#include "apps/words.hpp"
 
 namespace apps::intake {
 namespace {
 
 using mesh_file::Lines;
 
-// Parses the three numbers of "Kd r g b"; a single one counts for all three. Nothing for a spectral curve, CIE XYZ or text.
+// Parses the three numbers of "Kd r g b"; a single one counts for all three, what follows the third not at all. Nothing for a spectral
+// curve, CIE XYZ or text.
 std::optional<radiosity::Color> color(const Lines& lines) {
   radiosity::Color c{0.0};
   const std::size_t given = lines.words().size() - 1;
-  if (given != 1 && given != 3) { return std::nullopt; }
+  if (given != 1 && given < 3) { return std::nullopt; }
   for (std::size_t i = 0; i < 3; ++i) {
     const auto value = mesh_file::to_number(lines.words()[given == 1 ? 1 : i + 1]);
     if (!value || *value < 0.0) { return std::nullopt; }
@@ -48,9 +51,19 @@ std::optional<std::string> file_of_name(const std::string& name, const SideFile&
   return bytes || folder == std::string::npos ? bytes : side_file(name.substr(folder + 1), ignored);
 }
 
-// The name of the picture after map_Kd, which may be preceded by options with numbers or words.
+// The name of the picture after map_Kd, which may contain blanks and be preceded by options: -o, -s and -t with up to three numbers, -mm
+// with two, others with one word each.
 std::string picture_of(const Lines& lines) {
-  std::string name(lines.words()[1].starts_with('-') ? lines.words().back() : lines.rest());
+  const auto& words = lines.words();
+  std::size_t first = 1;
+  while (first + 1 < words.size() && words[first].starts_with('-')) {
+    const std::string_view option = words[first++];
+    const bool vector = option == "-o" || option == "-s" || option == "-t";
+    const std::size_t most = vector ? 3 : option == "-mm" ? 2 : 1;
+    for (std::size_t i = 0; i < most && first + 1 < words.size() && (!vector || mesh_file::to_number(words[first])); ++i) { ++first; }
+  }
+  std::string name;
+  for (std::size_t i = first; i < words.size(); ++i) { name.append(i > first ? " " : "").append(words[i]); }
   std::replace(name.begin(), name.end(), '\\', '/');
   return name;
 }
@@ -60,7 +73,7 @@ std::string picture_of(const Lines& lines) {
 class ObjMaterials {
  public:
   ObjMaterials(std::vector<ModelMaterial>& materials, PolygonColors& colors, Notes& notes, const SideFile& side_file)
-      : materials_(materials), colors_(colors), notes_(notes), side_file_(side_file) {
+      : materials_(materials), colors_(colors), notes_(notes), side_file_(side_file), defined_(materials.size(), false) {
     for (std::size_t i = 0; i < materials.size(); ++i) { index_.emplace(materials[i].name, i); }
   }
 
@@ -70,42 +83,79 @@ class ObjMaterials {
     if (!text) { return notes_.add("the materials in " + mesh_file::shown(library) + " are not known: it " + fault); }
     ModelMaterial* material = nullptr;  // null: one that no face has
     Pictured pictured;
+    std::map<ModelMaterial*, Opacity> opacities;
+    ++read_;
     Lines lines(*text, true, true);
     while (lines.next()) {
       const std::string_view word = lines.words()[0];
       const std::string place = "at " + library + ":" + std::to_string(lines.line());
       const bool bare = lines.words().size() < 2;
-      if (word == "newmtl") {
+      if (same_letters(word, "newmtl")) {
         const auto found = bare ? index_.end() : index_.find(lines.rest());
         material = found == index_.end() ? nullptr : &materials_[found->second];
+        if (material != nullptr) { defined_[found->second] = true; }
       } else if (bare || material == nullptr) {
         continue;
-      } else if (word == "Kd" || word == "Ke") {
+      } else if (same_letters(word, "kd") || same_letters(word, "ke")) {
         set_color(*material, lines, place);
-      } else if (word == "map_Kd" || word == "map_Ke") {
+      } else if (same_letters(word, "map_kd") || same_letters(word, "map_ke")) {
         set_picture(*material, lines, place, pictured);
-      } else if (word == "d" || word == "Tr") {
-        const auto value = mesh_file::to_number(lines.words().back());
-        if (value && *value != (word == "d" ? 1.0 : 0.0)) { notes_.add("materials that let light through are taken as opaque", place); }
+      } else if (same_letters(word, "d") || same_letters(word, "tr") || same_letters(word, "map_d")) {
+        opacities[material].add(lines, place);
       }
     }
     leave_to_pictures(pictured);
+    for (const auto& [of, opacity] : opacities) { set_opacity(*of, opacity); }
+  }
+
+  // To be called after all libraries.
+  void note_undefined() {
+    for (std::size_t m = 0; read_ > 0 && m < materials_.size(); ++m) {
+      if (!defined_[m] && materials_[m].name != "default") {
+        notes_.add("materials are not defined in the libraries of the file", mesh_file::shown(materials_[m].name));
+      }
+    }
   }
 
  private:
-  // Materials with a picture for Kd that can be read, or that cannot, and with one for Ke. They are looked at in the end, because map_Kd
+  // Materials with a picture for Kd that can be read, or that cannot, and likewise for Ke. They are looked at in the end, because map_Kd
   // and Kd may come in either order.
   struct Pictured {
     Pictures<std::string> pictures;
-    std::vector<ModelMaterial*> painted, unseen, glowing;
+    std::vector<ModelMaterial*> painted, unseen, glowing, dark;
   };
+
+  // What a library says about the light that passes through a material. d is the opacity; Tr is one minus the opacity but, where both are
+  // given, for some programs the opacity itself.
+  struct Opacity {
+    std::optional<double> d, tr;
+    bool picture = false;  // map_d: says where the material is opaque
+    std::string place;     // of the first word
+
+    void add(const Lines& lines, const std::string& at) {
+      if (place.empty()) { place = at; }
+      const std::string_view word = lines.words()[0];
+      if (same_letters(word, "map_d")) {
+        picture = true;
+      } else if (const auto value = mesh_file::to_number(lines.words().back())) {  // after options such as -halo
+        (same_letters(word, "d") ? d : tr) = std::clamp(*value, 0.0, 1.0);
+      }
+    }
+  };
+
+  void set_opacity(ModelMaterial& material, const Opacity& given) {
+    material.opacity = given.picture ? 1.0 : given.d.value_or(1.0 - given.tr.value_or(0.0));
+    if (given.picture || (material.opacity < 1.0 && material.opacity >= least_opacity)) {
+      notes_.add("materials that let light through are taken as opaque", given.place);
+    }
+  }
 
   void set_color(ModelMaterial& material, const Lines& lines, const std::string& place) {
     const std::string_view word = lines.words()[0];
     const auto value = color(lines);
     if (!value) {
       notes_.add("expected one or three numbers from 0 on after " + std::string(word) + ": passed over", place);
-    } else if (word == "Kd") {
+    } else if (same_letters(word, "kd")) {
       material.reflectance = *value;
     } else {
       material.emission = std::numbers::pi * *value;
@@ -114,7 +164,7 @@ class ObjMaterials {
 
   void set_picture(ModelMaterial& material, const Lines& lines, const std::string& place, Pictured& pictured) {
     const std::string name = picture_of(lines);
-    const bool reflects = lines.words()[0] == "map_Kd";
+    const bool reflects = same_letters(lines.words()[0], "map_kd");
     const std::shared_ptr<const Picture>& picture = pictured.pictures.of(name, [&] {
       std::string fault;
       const auto bytes = file_of_name(name, side_file_, fault);
@@ -126,8 +176,10 @@ class ObjMaterials {
       return colors_.picture(static_cast<std::uint32_t>(&material - materials_.data()),
                              reflects ? PolygonColors::Of::reflectance : PolygonColors::Of::emission, picture, place);
     }
-    if (reflects) { pictured.unseen.push_back(&material); }
-    notes_.add("textures are not read: " + std::string(reflects ? "Kd" : "Ke") + " stands for the picture", place);
+    (reflects ? pictured.unseen : pictured.dark).push_back(&material);
+    notes_.add(reflects ? "textures are not read: Kd stands for the picture"
+                        : "surfaces whose emissive picture is not read do not shine (--lamp MATERIAL)",
+               place);
   }
 
   // Programs that have no factor write a colour of 0 beside a picture.
@@ -138,6 +190,8 @@ class ObjMaterials {
     for (ModelMaterial* const of : pictured.painted) {
       if (radiosity::is_black(of->reflectance.value_or(radiosity::Color(0.0)))) { of->reflectance = radiosity::Color(1.0); }
     }
+    // Most of such a picture is usually black.
+    for (ModelMaterial* const of : pictured.dark) { of->emission = radiosity::Color(0.0); }
     for (ModelMaterial* const of : pictured.glowing) {
       if (radiosity::is_black(of->emission)) { of->emission = radiosity::Color(std::numbers::pi); }
     }
@@ -148,6 +202,8 @@ class ObjMaterials {
   Notes& notes_;
   const SideFile& side_file_;
   std::unordered_map<std::string, std::size_t> index_;
+  std::vector<bool> defined_;  // by material
+  std::size_t read_ = 0;       // libraries
 };
 
 // The face's own colour, or the mean of its vertex colours, in linear light; nothing if one of these is unknown.
@@ -194,6 +250,7 @@ ModelResult read(std::string_view bytes, const MeshFormat& format, const SideFil
   }
   ObjMaterials materials(model.materials, colors, notes, side_file);
   for (const std::string& library : mesh.libraries) { materials.read(library); }
+  materials.note_undefined();
   colors.apply(model, notes);
   model.notes = std::move(mesh.notes);
   for (std::string& note : notes.take()) { model.notes.push_back(std::move(note)); }

@@ -73,7 +73,8 @@ struct Material {
   std::string name = "default";
   bool two_sided = true;
   radiosity::Color reflectance{0.0}, emission{0.0};
-  std::uint32_t number = none;  // its index in the model after its first use; a change resets it
+  double diffused = 0.0, transmitted = 0.0;  // shares of the light that passes through: td, ts
+  std::uint32_t number = none;               // its index in the model after its first use; a change resets it
   static constexpr std::uint32_t none = 0xffffffff;
 };
 struct Vertex {
@@ -119,7 +120,8 @@ class Contexts {
   std::map<std::string, Value*, std::less<>> names_;
 };
 
-// The entities of MGF about colours and materials: c with cxy, cspec, cct, cmix; m with sides, rd, ed. Mirrors and glass are only noted.
+// The entities of MGF about colours and materials: c with cxy, cspec, cct, cmix; m with sides, rd, ed, td, ts. Mirrors are only
+// noted.
 class Looks {
  public:
   Looks(Model& model, Notes& notes) : model_{model}, notes_{notes} {}
@@ -140,7 +142,8 @@ class Looks {
   void sides(const Line& line, Errors& errors) { changed().two_sided = number(line, 1, errors) != 1.0; }
   void reflectance(const Line& line, Errors& errors);
   void emission(const Line& line, Errors& errors);
-  void mirror_or_glass(const Line& line, Errors& errors);
+  void mirror(const Line& line, Errors& errors);
+  void transmittance(const Line& line, Errors& errors);
 
   void set_color(const glm::dvec3& xyz);
   Material& changed();

@@ -20,9 +20,9 @@ double amount(const Line& line, std::size_t word, Errors& errors) {
 
 bool Looks::take(const Line& line, Errors& errors) {
   static const std::map<std::string_view, void (Looks::*)(const Line&, Errors&)> entities{
-      {"c", &Looks::choose_color}, {"cxy", &Looks::chromaticity},   {"cct", &Looks::temperature},    {"cspec", &Looks::spectrum},
-      {"cmix", &Looks::mixture},   {"m", &Looks::choose_material},  {"sides", &Looks::sides},        {"rd", &Looks::reflectance},
-      {"ed", &Looks::emission},    {"td", &Looks::mirror_or_glass}, {"rs", &Looks::mirror_or_glass}, {"ts", &Looks::mirror_or_glass}};
+      {"c", &Looks::choose_color}, {"cxy", &Looks::chromaticity},  {"cct", &Looks::temperature}, {"cspec", &Looks::spectrum},
+      {"cmix", &Looks::mixture},   {"m", &Looks::choose_material}, {"sides", &Looks::sides},     {"rd", &Looks::reflectance},
+      {"ed", &Looks::emission},    {"td", &Looks::transmittance},  {"rs", &Looks::mirror},       {"ts", &Looks::transmittance}};
   const auto found = entities.find(line.words[0]);
   if (found == entities.end()) { return false; }
   (this->*found->second)(line, errors);
@@ -33,7 +33,8 @@ std::uint32_t Looks::material() {
   Material& current = materials_.current();
   if (current.number == Material::none) {
     current.number = static_cast<std::uint32_t>(model_.materials.size());
-    model_.materials.push_back({current.name, current.reflectance, current.emission, current.two_sided});
+    const double opacity = 1.0 - std::min(1.0, current.diffused + current.transmitted);
+    model_.materials.push_back({current.name, current.reflectance, current.emission, current.two_sided, opacity});
   }
   return current.number;
 }
@@ -100,8 +101,15 @@ void Looks::emission(const Line& line, Errors& errors) {
   if (exitance > 0.0) { notes_.add("ed is in lm/m2: 179 lm are 1 W of white light", at(line)); }
 }
 
-void Looks::mirror_or_glass(const Line& line, Errors& errors) {
-  if (number(line, 1, errors) != 0.0) { notes_.add("what materials reflect as mirrors or let through is left out", at(line)); }
+void Looks::mirror(const Line& line, Errors& errors) {
+  if (number(line, 1, errors) != 0.0) { notes_.add("what materials reflect as mirrors is left out", at(line)); }
+}
+
+void Looks::transmittance(const Line& line, Errors& errors) {
+  const double share = amount(line, 1, errors);
+  if (share < 0.0) { return; }
+  (line.words[0] == "td" ? changed().diffused : changed().transmitted) = share;
+  if (share > 0.0 && share <= 1.0 - least_opacity) { notes_.add("materials that let light through are taken as opaque", at(line)); }
 }
 
 void Looks::set_color(const glm::dvec3& xyz) {

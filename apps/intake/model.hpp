@@ -34,7 +34,11 @@ struct ModelMaterial {
   std::optional<radiosity::Color> reflectance;
   radiosity::Color emission{0.0};  // W/m2
   bool two_sided = false;          // does the file say that its surfaces are seen from both sides?
+  double opacity = 1.0;            // share of the light that does not pass through
 };
+
+// Surfaces that let most light through, such as window panes, are left out of the scene (panes.hpp); others are taken as opaque.
+inline constexpr double least_opacity = 0.5;
 
 // A light without a surface, for which a lamp is made (light_lamps.hpp). `intensity` is in W/sr, that of a sun in W/m2 across its rays; or,
 // if not `absolute`, relative to one that is bright enough for the scene.
@@ -140,7 +144,8 @@ extern const ModelFormat obj, ply, off, stl, gltf, glb, wrl, mgf_format;
 // ".obj, .gltf, ... or .mgf"
 [[nodiscard]] std::string model_endings();
 
-// By the ending of the name, in upper or lower case; for "-" by the first bytes. Null if no format fits.
+// By the ending of the name, in upper or lower case, without ".gz" (".wrz" is ".wrl.gz"); for "-" by the first bytes. Null if no format
+// fits. `bytes`: decompressed.
 [[nodiscard]] const ModelFormat* model_format(std::string_view path, std::string_view bytes);
 
 }  // namespace apps

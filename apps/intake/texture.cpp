@@ -13,6 +13,8 @@
 
 #include <radiosity/camera/tone.hpp>
 
+#include "apps/gzip.hpp"
+
 #if defined(__clang__)  // stb_image shifts negative numbers
 #pragma clang attribute push(__attribute__((no_sanitize("undefined"))), apply_to = function)
 #endif
@@ -26,6 +28,17 @@
 #if defined(__clang__)
 #pragma clang attribute pop
 #endif
+
+namespace apps {
+
+bool inflate(std::string_view stream, std::span<char> out) {
+  constexpr auto most = static_cast<std::size_t>(std::numeric_limits<int>::max());
+  if (stream.size() > most || out.size() > most) { return false; }
+  const int size = static_cast<int>(out.size());
+  return stbi_zlib_decode_noheader_buffer(out.data(), size, stream.data(), static_cast<int>(stream.size())) == size;
+}
+
+}  // namespace apps
 
 namespace apps::intake {
 
@@ -62,6 +75,7 @@ std::shared_ptr<const Picture> Picture::of_pixels(std::uint32_t width, std::span
       const glm::vec4 pixel(opaque * linear[p[0]], opaque * linear[p[1]], opaque * linear[p[2]], opaque);
       picture->pixels_[row + std::size_t{x} * picture->width_ / width] += pixel;
       sum += glm::dvec4(pixel);
+      picture->most_opaque_ = std::max(picture->most_opaque_, static_cast<double>(p[3]) / 255.0);
     }
   }
   if (!(sum.w > 0.0)) { return nullptr; }

@@ -26,6 +26,8 @@ class Picture {
   [[nodiscard]] static std::shared_ptr<const Picture> of_pixels(std::uint32_t width, std::span<const std::uint8_t> rgba);
 
   [[nodiscard]] const radiosity::Color& mean() const { return mean_; }
+  // The opacity of the most opaque pixel.
+  [[nodiscard]] double most_opaque() const { return most_opaque_; }
 
   struct Part {
     radiosity::Color mean{0.0};
@@ -41,6 +43,7 @@ class Picture {
   std::uint32_t width_ = 0, height_ = 0;
   std::vector<glm::vec4> pixels_;  // the colour times the opacity, and the opacity
   radiosity::Color mean_{0.0};
+  double most_opaque_ = 0.0;
 };
 
 // The pictures of a file, each read only once.

@@ -7,6 +7,8 @@
 
 #include <glm/mat3x3.hpp>
 
+#include <brep/finite.hpp>
+
 #include <raycast/box.hpp>
 #include <raycast/transform.hpp>
 
@@ -16,6 +18,7 @@
 #include "apps/intake/added_light.hpp"
 #include "apps/intake/camera_up.hpp"
 #include "apps/intake/light_lamps.hpp"
+#include "apps/intake/panes.hpp"
 #include "apps/text.hpp"
 #include "apps/words.hpp"
 
@@ -29,6 +32,9 @@ glm::dmat3 to_metres(UpAxis up, double metres) {
   if (up == UpAxis::x) { turn = {{0, 0, 1}, {0, 1, 0}, {-1, 0, 0}}; }
   return metres * turn;
 }
+
+// A solid that is smaller than this, relative to the model, is lost in rounding beside it.
+constexpr double least_size = 1e-11;
 
 class SceneMaker {
  public:
@@ -65,12 +71,24 @@ class SceneMaker {
     file_.notes = std::move(model_.notes);
     take_materials();
     if (!take_lamps(faults)) { return false; }
+    if (!options_.opaque) { panes_ = Panes(model_, file_.scene.materials); }
+    if (auto sentence = panes_.sentence(model_); !sentence.empty()) { note(std::move(sentence)); }
+    const double vanishing = model_.objects.empty() ? 0.0 : least_size * model_size();  // before the polygons are taken out of the model
     take_polygons();
+    std::size_t vanished = 0;
     for (std::size_t i = 0; i < model_.objects.size(); ++i) {
       const radiosity::SceneObject& object = model_.objects[i];
+      if (panes_.has(object)) { continue; }
+      if (!(radiosity::placed_bounds(*object.shape, object.placement).diameter() > vanishing)) {
+        ++vanished;
+        continue;
+      }
       if (object.placement.inside) { rooms_.push_back({radiosity::placed_bounds(*object.shape, object.placement), false}); }
       file_.scene.objects.push_back(std::move(model_.objects[i]));
       file_.origins.push_back(model_.origins[i]);
+    }
+    if (vanished > 0) {
+      note(counted(vanished, "solid is", "solids are") + " smaller than " + formatted("%g", least_size) + " of the model: left out");
     }
     if (file_.scene.objects.empty()) {
       std::string sentence = "nothing in this file has a surface";
@@ -89,6 +107,15 @@ class SceneMaker {
     only_suns_ = only_suns_ && shines();
     rename();
     return true;
+  }
+
+  [[nodiscard]] double model_size() const {
+    raycast::Box box;
+    for (const std::uint32_t corner : model_.corners) {
+      if (corner < model_.positions.size() && brep::is_finite(model_.positions[corner])) { box.extend(model_.positions[corner]); }
+    }
+    for (const radiosity::SceneObject& object : model_.objects) { box.extend(radiosity::placed_bounds(*object.shape, object.placement)); }
+    return box.diameter();
   }
 
   void place(const glm::dmat3& linear) {
@@ -175,9 +202,8 @@ class SceneMaker {
       const bool shines = shines_by(object);
       if (shines && !object.placement.inside) { options.lamps.push_back(radiosity::placed_sides(*object.shape, object.placement)); }
     }
-    const radiosity::PolygonView view{model_.positions, model_.corners, model_.first_corner, model_.material,
-                                      model_.group,     model_.groups,  two_sided_};
-    radiosity::Intake intake = radiosity::take_in(view, file_.scene.materials, options);
+    radiosity::Intake intake = radiosity::take_in(panes_.others(model_, two_sided_), file_.scene.materials, options);
+    panes_.renumber(intake);
     for (const radiosity::Change& change : intake.changes) {
       const bool worst = radiosity::tells_size(change);
       note(radiosity::sentence(change) +
@@ -220,6 +246,7 @@ class SceneMaker {
   const ModelOptions& options_;
   SceneFile file_;
   std::vector<std::uint8_t> two_sided_;
+  Panes panes_;
   std::vector<glm::dvec3> given_positions_;  // positions in the file
   bool given_z_up_ = false;
   bool sides_unknown_ = false;  // does the format not say which side of an open surface is seen?

@@ -37,6 +37,7 @@ struct ModelOptions {
   double metres = 1.0;       // length of one unit of the file
   std::optional<UpAxis> up;  // default: the format's
   bool merge = true;
+  bool opaque = false;                      // should surfaces that let most light through remain, as opaque ones?
   bool lamps_wanted = true;                 // should a model without light get a lamp?
   std::optional<radiosity::Camera> camera;  // placed before those of the file, in the scene's coordinates
 

@@ -60,6 +60,9 @@ class ObjReader {
   }
   // Reports that there are no faces, and what the file contains instead.
   void no_faces() {
+    if (unread_.contains("surf")) {
+      return out_.error({1, 1}, "the file has no faces, but free-form surfaces (surf), which are not read: let its program write polygons");
+    }
     std::string others;
     for (const auto& [word, number] : unread_) { others += (others.empty() ? "" : ", ") + lines_of(word, number); }
     out_.error({1, 1}, count() == 0 && others.empty() ? "the file has no faces: no line begins with f"
@@ -185,7 +188,7 @@ class ObjReader {
     if (object_.empty() || group_.empty()) { return object_.empty() && group_.empty() ? "mesh" : object_ + group_; }
     return object_ == group_ ? object_ : object_ + "." + group_;
   }
-  // One line may name several files; a single name may contain blanks.
+  // One line may name several files; a single name may contain blanks, or stand in quotes.
   void libraries() {
     std::vector<std::string>& list = out_.mesh.libraries;
     std::vector<std::string> named;
@@ -197,6 +200,7 @@ class ObjReader {
       named.push_back(lines_.rest());
     }
     for (std::string& name : named) {
+      if (name.size() > 2 && name.front() == '"' && name.back() == '"') { name = name.substr(1, name.size() - 2); }
       if (list.size() < 100 && !contains(list, name)) { list.push_back(std::move(name)); }
     }
   }

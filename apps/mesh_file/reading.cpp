@@ -27,7 +27,10 @@ std::optional<T> parse(std::string_view word) {
 }  // namespace
 
 Lines::Lines(std::string_view text, bool comments, bool continued)
-    : text_(text), comments_(comments), continued_(continued), at_(text.size() - without_mark(text).size()) {}
+    : text_(text), comments_(comments), continued_(continued), at_(text.size() - without_mark(text).size()) {
+  constexpr char end_of_dos_text = '\x1a';
+  if (comments_ && text_.ends_with(end_of_dos_text)) { text_.remove_suffix(1); }
+}
 
 bool Lines::next() {
   words_.clear();
@@ -52,9 +55,9 @@ void Lines::read_line() {
     starts_.push_back({++line_, line.data()});
     at_ = end + (text_.substr(end, 2) == "\r\n" ? 2 : end < text_.size() ? 1 : 0);
     const std::size_t comment = comments_ ? line.find('#') : std::string_view::npos;
-    more = continued_ && comment == std::string_view::npos && !line.empty() && line.back() == '\\';
-    line = line.substr(0, comment);
-    if (more) { line.remove_suffix(1); }
+    const std::size_t last = line.find_last_not_of(" \t\v\f");
+    more = continued_ && comment == std::string_view::npos && last != std::string_view::npos && line[last] == '\\';
+    line = line.substr(0, more ? last : comment);
     cut(line);
   }
 }

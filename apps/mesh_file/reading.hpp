@@ -39,7 +39,8 @@ class Output {
 // Text line by line; lines end with LF, CR LF or CR. Words are separated by blanks.
 class Lines {
  public:
-  // `comments`: a '#' and the rest of its line are ignored. `continued`: a backslash at the end joins a line with the next one.
+  // `comments`: a '#' and the rest of its line are ignored. `continued`: a backslash at the end, or before blanks at the end,
+  // joins a line with the next one.
   Lines(std::string_view text, bool comments, bool continued = false);
 
   // Advances to the next line that has words; false at the end.

@@ -48,7 +48,10 @@ std::optional<SceneFile> mesh_from_file(const ObjectSyntax& object, const SideFi
   if (!read.model) { return std::nullopt; }
   read.model->name_file(file.text);
   if (object.material) {  // replaces the materials of the file
-    for (ModelMaterial& material : read.model->materials) { material.reflectance = radiosity::Color(0.0); }
+    for (ModelMaterial& material : read.model->materials) {
+      material.reflectance = radiosity::Color(0.0);
+      material.opacity = 1.0;
+    }
   }
   std::vector<std::string> faults;
   auto part = to_part(std::move(*read.model), object.two_sided.has_value(), eyes, faults);

@@ -13,6 +13,7 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
+#include "apps/gzip.hpp"
 #include "apps/scene_file/build.hpp"
 #include "apps/scene_file/grammar.hpp"
 #include "apps/scene_file/parser.hpp"
@@ -94,7 +95,7 @@ std::optional<std::string> read_text(const std::string& path, std::string& fault
   }
   if (std::ferror(file.get()) != 0) { return refuse(std::string("cannot be read: ") + std::strerror(errno)); }
   text.resize(size);
-  return text;
+  return is_gzip(text) ? gunzip(text, max_file_bytes, fault) : std::optional(std::move(text));
 }
 
 }  // namespace apps

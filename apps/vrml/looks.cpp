@@ -65,7 +65,11 @@ ModelMaterial Looks::made(const State& state, const Numbers& numbers, std::size_
   const bool replaces = picture && texture->version == Version::v97 && !(mean.x == mean.y && mean.y == mean.z);
   material.reflectance = (replaces ? glm::dvec3(1.0) : color("diffuseColor", glm::dvec3(0.8))) * mean;
   material.emission = std::numbers::pi * color("emissiveColor", glm::dvec3(0.0));
-  if (values(state, "transparency", 1) > 0 && state.material->number("transparency", 0.0) > 0.0) {
+  if (const std::size_t n = values(state, "transparency", 1); n > 0) {
+    const std::size_t first = numbers[0] < n ? numbers[0] : 0;
+    material.opacity = 1.0 - std::clamp(state.material->find("transparency")->numbers[first], 0.0, 1.0);
+  }
+  if (material.opacity < 1.0 && material.opacity >= least_opacity) {
     notes_.add("materials that let light through are taken as opaque", at_line_of(*state.material));
   }
   return material;
@@ -129,14 +133,14 @@ std::shared_ptr<const intake::Picture> picture_of_image(const std::vector<double
 // byte. A surface has the mean of its picture times its diffuse colour.
 std::shared_ptr<const intake::Picture> picture_of(const Node& texture, const SideFile& side_file, Notes& notes) {
   const Field* const image = texture.find("image");
-  const std::string name(texture.word(texture.version == Version::v97 ? "url" : "filename", ""));
+  const std::string_view url = texture.word(texture.version == Version::v97 ? "url" : "filename", "");
   const bool inside = image != nullptr && image->numbers.size() >= 2 && image->numbers[0] * image->numbers[1] != 0.0;
-  if (!inside && name.empty()) { return nullptr; }  // ends the effect of an earlier picture
+  if (!inside && url.empty()) { return nullptr; }  // ends the effect of an earlier picture
   std::string fault;
   std::shared_ptr<const intake::Picture> picture;
   if (inside) {
     picture = picture_of_image(image->numbers);
-  } else if (name.find("://") == name.npos) {
+  } else if (const std::string name = name_beside(texture.file, url); !name.empty()) {
     if (const auto bytes = side_file(name, fault)) { picture = intake::Picture::read(*bytes); }
   }
   notes.add(

@@ -4,9 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <filesystem>
 #include <numbers>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -29,12 +27,12 @@ namespace apps::vrml {
 namespace {
 
 constexpr std::size_t most_corners = 50'000'000;  // for all uses of all face sets together
-constexpr std::size_t most_inlines = 1000;
-constexpr int sides_of_part = 32;  // of a cylinder or cone that lacks a part and so is not a solid
+constexpr int sides_of_part = 32;                 // of a cylinder or cone that lacks a part and so is not a solid
 
 class ModelMaker {
  public:
-  ModelMaker(const SideFile& side_file, Errors& errors, Notes& notes) : side_file_(side_file), errors_(errors), notes_(notes) {}
+  ModelMaker(const SideFile& side_file, OtherFiles& others, Errors& errors, Notes& notes)
+      : side_file_(side_file), others_(others), errors_(errors), notes_(notes) {}
 
   Model model;
 
@@ -89,41 +87,23 @@ class ModelMaker {
     }
   }
 
-  // The content of the file that an Inline node names; null if there is none.
+  // The content of the file that an Inline node names; null if there is none. A file that inlines itself is later refused as too deep.
   std::shared_ptr<const Node> inlined(const Node& node) {
-    std::string name(node.word(node.version == Version::v97 ? "url" : "name", ""));
-    const auto around = files_.find(&node);
-    if (around != files_.end() && !name.empty()) { name.insert(0, around->second, 0, around->second.rfind('/') + 1); }
-    name = std::filesystem::path(name).lexically_normal().generic_string();  // so that each file has only one name
-    const auto [known, is_new] = inlines_.emplace(name, nullptr);
-    if (!is_new) { return known->second; }
-    std::string fault;
-    const bool allowed = !name.empty() && name.find("://") == name.npos && inlines_.size() <= most_inlines;
-    const auto text = allowed ? side_file_(name, fault) : std::nullopt;
-    if (!text) {
-      notes_.add("the file " + mesh_file::shown(name) + (allowed ? " " + fault : " is not beside this one") + ": left out",
-                 at_line_of(node));
+    const std::string_view url = node.word(node.version == Version::v97 ? "url" : "name", "");
+    const std::string name = name_beside(node.file, url);
+    if (name.empty()) {
+      notes_.add("the file " + mesh_file::shown(url) + " is not beside this one: left out", at_line_of(node));
       return nullptr;
     }
-    Errors errors;
-    auto root = std::make_shared<Node>();
-    root->type = "Separator";
-    if (auto child = parse(*text, errors, notes_)) { root->children.push_back(std::move(child)); }
-    if (errors.count() > 0) {
-      notes_.add("left out " + first_error(errors.take(), name), at_line_of(node));
-      return nullptr;
+    const ParsedFile* const file = others_.read(name, at_line_of(node));
+    if (file == nullptr) { return nullptr; }
+    auto& root = inlines_[name];
+    if (root == nullptr) {
+      auto made = std::make_shared<Node>();
+      made->type = "Separator";
+      made->children.push_back(file->root);
+      root = std::move(made);
     }
-    std::vector<const Node*> open{root.get()};
-    while (!open.empty()) {  // line numbers in these nodes refer to the inlined file
-      const Node* const inner = open.back();
-      open.pop_back();
-      if (!files_.emplace(inner, name).second) { continue; }
-      for (const auto& child : inner->children) { open.push_back(child.get()); }
-      for (const auto& [unused, field] : inner->fields) {
-        for (const auto& child : field->nodes) { open.push_back(child.get()); }
-      }
-    }
-    inlines_[name] = root;  // a file that inlines itself is later refused as too deep
     return root;
   }
 
@@ -218,8 +198,7 @@ class ModelMaker {
   }
   static bool mirrored(const State& state) { return glm::determinant(glm::dmat3(state.transform)) < 0.0; }
   std::uint32_t new_group(const Node& node, const State& state) {
-    const auto file = files_.find(&node);
-    model.begin_part(file == files_.end() ? "" : file->second);
+    model.begin_part(node.file == nullptr ? "" : *node.file);
     model.groups.push_back(name_of(node, state, "faces" + std::to_string(model.groups.size())));
     return static_cast<std::uint32_t>(model.groups.size() - 1);
   }
@@ -277,18 +256,19 @@ class ModelMaker {
   }
 
   const SideFile& side_file_;
+  OtherFiles& others_;
   Errors& errors_;
   Notes& notes_;
   Looks looks_{model, side_file_, notes_};
-  std::map<std::string, std::shared_ptr<const Node>> inlines_;
-  std::unordered_map<const Node*, std::string> files_;  // by node of an inlined file: the file's name
+  std::map<std::string, std::shared_ptr<const Node>> inlines_;  // by the name of the file
 };
 
 ModelResult read_vrml(std::string_view bytes, const SideFile& side_file) {
   Errors errors;
   Notes notes;
-  const auto root = parse(bytes, errors, notes);
-  ModelMaker maker(side_file, errors, notes);
+  OtherFiles others(side_file, notes);
+  const auto root = parse(bytes, errors, notes, others).root;
+  ModelMaker maker(side_file, others, errors, notes);
   State state;
   if (root != nullptr && !GraphWalk<ModelMaker, State>(maker, graph_limits).visit(root, state)) {
     errors.add(root->place, "uses of uses make more than " + std::to_string(graph_limits.most_visits) +
@@ -298,7 +278,7 @@ ModelResult read_vrml(std::string_view bytes, const SideFile& side_file) {
   return read_result(std::move(maker.model), errors);
 }
 
-bool begins_vrml(std::string_view bytes) { return bytes.starts_with("#VRML"); }
+bool begins_vrml(std::string_view bytes) { return without_mark(bytes).starts_with("#VRML"); }
 
 }  // namespace
 }  // namespace apps::vrml

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Parses text to nodes. A node is: [DEF name] Type { fields and children }, or USE name. VRML 97 also has prototypes: node types that a
 // file defines by other nodes.
+#include <algorithm>
 #include <utility>
 
 #include "apps/vrml/scene_graph.hpp"
@@ -12,17 +13,22 @@ namespace {
 
 class Parser {
  public:
-  Parser(std::string_view text, Version version, Errors& errors, Notes& notes)
-      : in_(text, version, errors), version_(version), notes_(notes) {}
+  Parser(std::string_view text, Version version, Errors& errors, Notes& notes, OtherFiles& others, std::shared_ptr<const std::string> file)
+      : in_(text, version, errors), version_(version), notes_(notes), others_(others), file_(std::move(file)) {}
 
-  std::shared_ptr<const Node> run() {
+  ParsedFile run() {
     auto root = std::make_shared<Node>();
     root->type = "Group";
     while (!in_.at_end() && ok()) {  // standard VRML 1.0 has one node, its extensions and VRML 97 several
       if (auto node = read()) { root->children.push_back(std::move(node)); }
     }
-    if (ok() && root->children.empty()) { fail("expected a node such as " + example() + ", found the end of the file"); }
-    return ok() ? root : nullptr;
+    if (ok() && root->children.empty() && prototypes_.first() == nullptr) {
+      fail("expected a node such as " + example() + ", found the end of the file");
+    }
+    if (ok() && file_ == nullptr && prototypes_.first() != nullptr && !any_instance_) {
+      notes_.add("the prototypes of this file have no instances in it");
+    }
+    return {ok() ? std::move(root) : nullptr, std::move(prototypes_)};
   }
 
  private:
@@ -65,6 +71,7 @@ class Parser {
     node->type = in_.token();
     node->name = name;
     node->place = in_.place();
+    node->file = file_;
     node->version = version_;
     in_.next();
     if (!in_.is("{")) {
@@ -95,7 +102,9 @@ class Parser {
         notes_.add("the prototype " + mesh_file::shown(node.type) + " is in another file: its instances are passed over", at_line_of(node));
       } else if (depth_ == 1 && node_type(Version::v1, node.type) != nullptr) {
         return fail(node.place, node.type + " is a node of VRML 1.0: let the first line of the file be '#VRML V1.0 ascii'");
-      } else if (node.type != "Script") {
+      } else if (node.type == "Script") {
+        notes_.add("scripts are not run: what they change or make is not seen", at_line_of(node));
+      } else {
         note_unknown(node);
       }
       return skip_to("}", node.place);
@@ -156,8 +165,7 @@ class Parser {
     std::vector<std::string_view> known;
     for (const auto& [name, unused] : declared) { known.push_back(name); }
     for (std::size_t i = 0; type != nullptr && i < type->fields.size(); ++i) { known.push_back(type->fields[i].name); }
-    notes_.add("a " + node + " has no field " + mesh_file::shown(word) + suggestion(word, known) + ": passed over",
-               "at line " + std::to_string(place.line));
+    notes_.add("a " + node + " has no field " + mesh_file::shown(word) + suggestion(word, known) + ": passed over", at_line(place, file_));
     skip_value();
   }
 
@@ -236,9 +244,13 @@ class Parser {
     auto made = std::make_shared<Prototype>();
     for (in_.next(); ok() && !in_.is("]");) { declare_field(*made, external); }
     in_.next();
+    std::shared_ptr<const Prototype> elsewhere;
     if (ok() && external) {
-      Field file;
-      value({FieldType::Kind::strings, 1, true}, name, file);
+      Field urls;
+      value({FieldType::Kind::strings, 1, true}, name, urls);
+      for (std::size_t i = 0; ok() && elsewhere == nullptr && i < urls.words.size(); ++i) {
+        elsewhere = others_.prototype(urls.words[i], file_, at_line(place, file_));
+      }
     } else if (ok()) {
       fields_of_prototype_ = &made->types;
       auto outer_names = std::exchange(defined_, {});  // the body of a prototype has its own name space
@@ -248,7 +260,7 @@ class Parser {
     --depth_;
     prototypes_.leave();
     fields_of_prototype_ = outer_fields;
-    prototypes_.declare(name, std::move(made));
+    prototypes_.declare(name, elsewhere != nullptr ? std::move(elsewhere) : std::move(made));
   }
 
   // Parses one declaration: field SFColor color 1 0 0, exposedField likewise, eventIn SFBool on, eventOut likewise.
@@ -277,6 +289,7 @@ class Parser {
   }
 
   std::shared_ptr<Node> instance_of(const Prototype& prototype, const Node& call) {
+    any_instance_ = true;
     const auto made = instance(prototype, call.fields, copies_left_);
     if (made == nullptr || made->children.size() >= copies_left_) {
       fail(call.place, "instances of prototypes make more than " + std::to_string(graph_limits.most_visits) + " nodes");
@@ -308,7 +321,7 @@ class Parser {
     if (!fits) {
       notes_.add(
           "no prototype around has a field " + mesh_file::shown(out->is) + " of the type of '" + std::string(field) + "': passed over",
-          "at line " + std::to_string(out->place.line));
+          at_line(out->place, file_));
     }
     in_.next();
     return fits ? out : nullptr;
@@ -327,22 +340,26 @@ class Parser {
   ValueReader in_;
   Version version_;
   Notes& notes_;
+  OtherFiles& others_;
+  std::shared_ptr<const std::string> file_;
   std::size_t depth_ = 0;
   std::map<std::string, std::shared_ptr<const Node>, std::less<>> defined_;
   Prototypes prototypes_;
   const FieldTypes* fields_of_prototype_ = nullptr;  // of the prototype whose body is being read; null: none
   std::size_t copies_left_ = graph_limits.most_visits;
+  bool any_instance_ = false;
 };
 
 }  // namespace
 
-std::shared_ptr<const Node> parse(std::string_view text, Errors& errors, Notes& notes) {
+ParsedFile parse(std::string_view text, Errors& errors, Notes& notes, OtherFiles& others, const std::shared_ptr<const std::string>& file) {
+  text = without_mark(text);
   const bool v97 = text.starts_with("#VRML V2.0");
   if (!v97 && !text.starts_with("#VRML V1.0 ascii")) {
     errors.add({1, 1}, "expected '#VRML V2.0 utf8' or '#VRML V1.0 ascii' as the first line");
-    return nullptr;
+    return {};
   }
-  return Parser(text, v97 ? Version::v97 : Version::v1, errors, notes).run();
+  return Parser(text, v97 ? Version::v97 : Version::v1, errors, notes, others, file).run();
 }
 
 }  // namespace apps::vrml

@@ -53,6 +53,7 @@ using Fields = std::map<std::string, std::shared_ptr<const Field>, std::less<>>;
 struct Node {
   std::string type, name;  // name: given by DEF, or empty
   Place place;
+  std::shared_ptr<const std::string> file;  // named by the scene, in which the node stands; null: the scene itself
   Version version = Version::v1;
   Fields fields;
   std::vector<std::shared_ptr<const Node>> children;
@@ -75,7 +76,10 @@ struct Node {
   [[nodiscard]] std::string_view word(std::string_view field, std::string_view otherwise) const;
 };
 
-[[nodiscard]] inline std::string at_line_of(const Node& node) { return "at line " + std::to_string(node.place.line); }
+[[nodiscard]] inline std::string at_line(Place place, const std::shared_ptr<const std::string>& file) {
+  return "at line " + std::to_string(place.line) + (file != nullptr ? " of " + *file : "");
+}
+[[nodiscard]] inline std::string at_line_of(const Node& node) { return at_line(node.place, node.file); }
 
 inline constexpr GraphLimits graph_limits;
 
@@ -114,9 +118,9 @@ struct NodeType {
 using FieldTypes = std::map<std::string, FieldType, std::less<>>;
 
 struct Prototype {
-  FieldTypes types;                  // the node of which an instance is a copy; null: defined in another file
+  FieldTypes types;
   Fields defaults;                   // values of its fields without given values
-  std::shared_ptr<const Node> root;  // what stands in the place of an instance; null: it is in another file
+  std::shared_ptr<const Node> root;  // the node of which an instance is a copy; null: it is in another file, which cannot be read
 };
 
 // The prototypes known at a place, by nested scopes: those declared in the body of another prototype end with it.
@@ -124,12 +128,18 @@ class Prototypes {
  public:
   void enter() { scopes_.emplace_back(); }
   void leave() { scopes_.pop_back(); }
-  void declare(const std::string& name, std::shared_ptr<const Prototype> prototype) { scopes_.back()[name] = std::move(prototype); }
+  void declare(const std::string& name, std::shared_ptr<const Prototype> prototype) {
+    if (scopes_.size() == 1 && first_ == nullptr) { first_ = prototype; }
+    scopes_.back()[name] = std::move(prototype);
+  }
   // The innermost one of this name; null if there is none.
   [[nodiscard]] std::shared_ptr<const Prototype> find(std::string_view name) const;
+  // The first one declared outside of all others; null if there is none.
+  [[nodiscard]] const std::shared_ptr<const Prototype>& first() const { return first_; }
 
  private:
   std::vector<std::map<std::string, std::shared_ptr<const Prototype>, std::less<>>> scopes_{1};
+  std::shared_ptr<const Prototype> first_;
 };
 
 // Sets `height` and `open` of the node. Those of its fields' nodes and children must already be set.
@@ -141,8 +151,34 @@ void settle(Node& node);
 
 // --- reading and walking
 
-// The nodes of the text under one root; null after errors.
-[[nodiscard]] std::shared_ptr<const Node> parse(std::string_view text, Errors& errors, Notes& notes);
+struct ParsedFile {
+  std::shared_ptr<const Node> root;  // of all nodes; null after errors
+  Prototypes prototypes;
+};
+
+// The files that a scene names, by Inline and EXTERNPROTO, and the files that these name. Each is read once.
+class OtherFiles {
+ public:
+  OtherFiles(const SideFile& side_file, Notes& notes) : side_file_(side_file), notes_(notes) {}
+
+  // Null, and a note, if the file cannot be read; null if it is being read.
+  const ParsedFile* read(const std::string& name, const std::string& place);
+  // The prototype at a URL such as "a.wrl#Table" in this file; without a name the first one there. Null if it cannot be read.
+  std::shared_ptr<const Prototype> prototype(std::string_view url, const std::shared_ptr<const std::string>& in, const std::string& place);
+
+ private:
+  const SideFile& side_file_;
+  Notes& notes_;
+  std::size_t depth_ = 0;  // files that are being read
+  std::map<std::string, std::unique_ptr<ParsedFile>> files_;
+};
+
+// The name, as seen from the scene, of what a file names by this URL; empty if that is not beside the scene.
+[[nodiscard]] std::string name_beside(const std::shared_ptr<const std::string>& file, std::string_view url);
+
+// `file`: as in Node.
+[[nodiscard]] ParsedFile parse(std::string_view text, Errors& errors, Notes& notes, OtherFiles& others,
+                               const std::shared_ptr<const std::string>& file = nullptr);
 
 // Which of the materials a part, a face or a corner uses.
 enum class Binding : unsigned char { overall, per_part, per_part_indexed, per_face, per_face_indexed, per_vertex, per_vertex_indexed };

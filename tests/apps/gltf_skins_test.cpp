@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// glTF: skins, whose vertices go with joints.
+// glTF: morph targets, and skins, whose vertices go with joints.
 
 #include <algorithm>
 #include <cmath>
@@ -115,6 +115,121 @@ TEST_CASE("glTF: vertices of a skin go with their joints, between them by their 
       CHECK(glm::length(model.positions[v] - expected) < 1e-9 * (1.0 + glm::length(expected)));
     }
   }
+}
+
+TEST_CASE("glTF: joints and weights of a second set count as those of the first") {
+  const auto seed = std::random_device{}();
+  CAPTURE(seed);
+  std::mt19937 random(seed);
+  for (int run = 0; run < 20; ++run) {
+    const Skinned given = skinned(random, false);
+    const apps::Model one = read("a.gltf", given.sample.embedded());
+    // The same weights, some of them in the second set.
+    Skinned two = given;
+    std::string joints[2], weights[2];
+    for (const float w : given.weights) {
+      const float part = static_cast<float>(random() % 3) / 2.0F;
+      for (std::size_t set = 0; set < 2; ++set) {
+        const float share = set == 0 ? part : 1.0F - part;
+        for (const int j : {0, 1, 1, 1}) { put(joints[set], static_cast<std::uint8_t>(j)); }
+        for (const float x : {w * share, (1.0F - w) * share, 0.0F, 0.0F}) { put(weights[set], x); }
+      }
+    }
+    std::string attributes = "{\"attributes\": {\"POSITION\": 0";
+    for (std::size_t set = 0; set < 2; ++set) {
+      attributes += ", \"JOINTS_" + std::to_string(set) + "\": " + std::to_string(add(two.sample, joints[set], 5121, 4, "VEC4"));
+      attributes += ", \"WEIGHTS_" + std::to_string(set) + "\": " + std::to_string(add(two.sample, weights[set], 5126, 4, "VEC4"));
+    }
+    two.sample.primitive = attributes + "}, \"indices\": 1}";
+    const apps::Model model = read("a.gltf", two.sample.embedded());
+    for (std::size_t v = 0; v < one.positions.size(); ++v) {
+      CHECK(glm::length(model.positions[v] - one.positions[v]) < 1e-9 * (1.0 + glm::length(one.positions[v])));
+    }
+  }
+}
+
+TEST_CASE("glTF: a vertex of a skin without a weight goes with its first joint, and that is told") {
+  std::mt19937 random(3);
+  Skinned given = skinned(random, false);
+  std::string weights;
+  for (int v = 0; v < 4; ++v) {
+    for (int k = 0; k < 4; ++k) { put(weights, v != 2 && k == 1 ? 1.0F : 0.0F); }
+  }
+  const std::size_t w = add(given.sample, weights, 5126, 4, "VEC4");
+  const std::size_t at = given.sample.primitive.find("\"WEIGHTS_0\": ") + 13;
+  given.sample.primitive.replace(at, 1, std::to_string(w));
+  const apps::Model model = read("a.gltf", given.sample.embedded()), plain = read("a.gltf", Sample().embedded());
+  CHECK(models::noted(model.notes, "without a weight go with their first joint"));
+  for (std::size_t v = 0; v < 4; ++v) {  // joints are 1, 0, 1, 1
+    const glm::dvec3 expected(given.joints[v == 2 ? 1 : 0] * glm::dvec4(plain.positions[v], 1.0));
+    CHECK(glm::length(model.positions[v] - expected) < 1e-9 * (1.0 + glm::length(expected)));
+  }
+}
+
+// The weights of the node count before those of the mesh; a target may be sparse, and there may be a skin, too.
+TEST_CASE("glTF: a vertex is moved by the weighted sum of its displacements, before its skin and its node move it") {
+  const auto seed = std::random_device{}();
+  CAPTURE(seed);
+  std::mt19937 random(seed);
+  const auto number = [&] { return static_cast<float>(std::uniform_real_distribution<double>(-2.0, 2.0)(random)); };
+  for (int run = 0; run < 20; ++run) {
+    Skinned given = skinned(random, false);
+    const bool has_skin = run % 2 == 0, of_node = run % 3 == 0;
+    const glm::dmat4 own = glm::translate(glm::dmat4(1.0), glm::dvec3(1.0, 2.0, 3.0));
+    if (!has_skin) {
+      given.sample = Sample();
+      given.sample.nodes = "[{\"mesh\": 0, \"translation\": [1, 2, 3]}]";
+    }
+    std::vector<glm::dvec3> expected = read("a.gltf", Sample().embedded()).positions;
+    std::string targets, weights;
+    for (int t = 0; t < 3; ++t) {
+      const float weight = t == 1 ? 0.0F : number();
+      std::vector<std::string> moves(4);
+      std::string all;
+      for (std::size_t v = 0; v < 4; ++v) {
+        const bool moved = t < 2 || v == 2;  // the last one is sparse
+        for (int k = 0; k < 3; ++k) {
+          const float x = moved ? number() : 0.0F;
+          put(moves[v], x);
+          expected[v][k] += static_cast<double>(weight) * static_cast<double>(x);
+        }
+        all += moves[v];
+      }
+      const std::size_t accessor = add(given.sample, all, 5126, 4, "VEC3");
+      if (t == 2) {
+        const std::string sparse = gltf_sample::substitution(given.sample, {2}, moves, true);
+        std::string& list = given.sample.accessors;
+        const std::size_t last = list.rfind('{');
+        list.replace(last, list.find("\"componentType\"", last) - last, "{" + sparse);
+      }
+      targets += (t > 0 ? ", " : "") + ("{\"NORMAL\": 77, \"POSITION\": " + std::to_string(accessor)) + "}";
+      weights += (t > 0 ? ", " : "") + gltf_sample::formatted(weight);
+    }
+    std::string& primitive = given.sample.primitive;
+    primitive.insert(primitive.size() - 1, ", \"targets\": [" + targets + "]");
+    // The list of primitives ends with what comes after the last one.
+    const std::string of_mesh = of_node ? "[9, 9, 9]" : "[" + weights + "]";
+    primitive += "], \"weights\": " + of_mesh + ", \"extras\": [0";
+    if (of_node) { given.sample.nodes.insert(2, "\"weights\": [" + weights + "], "); }
+    const apps::Model model = read("a.gltf", given.sample.embedded());
+    CHECK(model.notes.empty());
+    REQUIRE(model.positions.size() == 4);
+    for (std::size_t v = 0; v < 4; ++v) {
+      const glm::dvec4 p(expected[v], 1.0);
+      const auto w = has_skin ? static_cast<double>(given.weights[v]) : 0.0;
+      const glm::dvec3 place(has_skin ? w * (given.joints[0] * p) + (1.0 - w) * (given.joints[1] * p) : own * p);
+      CHECK(glm::length(model.positions[v] - place) < 1e-9 * (1.0 + glm::length(place)));
+    }
+  }
+}
+
+TEST_CASE("glTF: morph targets that cannot be read are left out, and that is told") {
+  Sample sample;
+  sample.primitive.insert(sample.primitive.size() - 1, ", \"targets\": [{\"POSITION\": 9}, {\"POSITION\": 1}]");
+  sample.nodes = "[{\"mesh\": 0, \"weights\": [1, 1]}]";
+  const apps::Model model = read("a.gltf", sample.embedded());
+  CHECK(model.positions == read("a.gltf", Sample().embedded()).positions);
+  CHECK(models::noted(model.notes, "morph targets that cannot be read"));
 }
 
 TEST_CASE("glTF: what is wrong with a skin is told") {

@@ -115,6 +115,51 @@ TEST_CASE("glTF: materials and cameras") {
   }
 }
 
+TEST_CASE("glTF: a hidden node hides what is below it, but not its cameras, and joints remain where they are") {
+  const auto polygons = [](const std::string& parent, const std::string& child) {
+    Sample sample;
+    const auto node = [](const std::string& visible, const std::string& more) {
+      return "{\"mesh\": 0, \"camera\": 0" + more + ", \"extensions\": {\"KHR_node_visibility\": {" + visible + "}}}";
+    };
+    sample.nodes =
+        "[" + node(parent, ", \"children\": [1]") + ", " + node(child, ", \"children\": [2]") + ", {\"mesh\": 0}, {\"mesh\": 0}]";
+    sample.more = ", \"cameras\": [{\"type\": \"perspective\", \"perspective\": {\"yfov\": 1}}]";
+    std::string text = sample.embedded();
+    text.replace(text.find("\"nodes\": [0]"), 12, "\"nodes\": [0, 3]");
+    const apps::Model model = read("a.gltf", text);
+    CHECK(model.cameras.size() == 2);
+    CHECK(noted(model.notes, "hidden nodes are left out") == (model.polygons() < 8));
+    return model.polygons();
+  };
+  const std::string shown = "\"visible\": true", hidden = "\"visible\": false";
+  CHECK(polygons(shown, "") == 8);
+  CHECK(polygons(shown, hidden) == 4);
+  CHECK(polygons(hidden, shown) == 2);
+}
+
+TEST_CASE("glTF: a primitive without positions is left out, the others are read") {
+  Sample sample;
+  sample.primitive += ", {\"attributes\": {}, \"indices\": 1}, {\"attributes\": {\"NORMAL\": 0}}";
+  const apps::Model model = read("a.gltf", sample.embedded());
+  CHECK(model.polygons() == 2);
+  CHECK(noted(model.notes, "primitives without positions are left out"));
+}
+
+// What is not known shines rather not: most of such a picture is black, and its factor is 1.
+TEST_CASE("glTF and OBJ: surfaces whose emissive picture is not read do not shine") {
+  Sample sample;
+  sample.primitive.insert(sample.primitive.size() - 1, ", \"material\": 0");
+  sample.more =
+      ", \"materials\": [{\"emissiveFactor\": [1, 1, 1], \"emissiveTexture\": {\"index\": 0}}], \"textures\": [{\"extensions\": "
+      "{\"EXT_texture_webp\": {\"source\": 0}}}], \"images\": [{\"uri\": \"a.webp\"}]";
+  const apps::Model gltf = read("a.gltf", sample.embedded(), {{"a.webp", "RIFF"}});
+  const apps::Model obj = read("a.obj", models::room_obj, {{"room.mtl", "newmtl wall\nmap_Ke a.webp\nKe 1 1 1\n"}, {"a.webp", "RIFF"}});
+  for (const apps::Model* const model : {&gltf, &obj}) {
+    CHECK(radiosity::is_black(model->materials.at(0).emission));
+    CHECK(noted(model->notes, "surfaces whose emissive picture is not read do not shine"));
+  }
+}
+
 // A source of I W/sr sends 4 pi I; so must the small lamp that stands for it.
 TEST_CASE("glTF: lights without a surface become lamps of the same power, where they stand") {
   Sample sample;

@@ -88,7 +88,7 @@ TEST_CASE("a damaged light file is refused, and one of wrong numbers under a rig
     CHECK_FALSE(apps::read_light_file(damaged, scene).light);
   }
   // Any word of the body at random: what is read then has no number that names what is not there.
-  const std::size_t body = std::string("halflight light 2\n0123456789abcdef\n").size() + 8 + apps::to_bytes({}).size();
+  const std::size_t body = std::string("halflight light 3\n0123456789abcdef\n").size() + 8 + apps::to_bytes({}).size();
   for (int turn = 0; turn < 200; ++turn) {
     std::string changed = file.substr(0, file.size() - 16);
     const std::size_t at = body + (turn < 100 ? random() % 24 : random() % (changed.size() - body - 4));

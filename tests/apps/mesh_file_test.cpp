@@ -236,3 +236,22 @@ TEST_CASE("real meshes have the counts and the manifold status that independent 
     }
   }
 }
+
+TEST_CASE("OBJ: of a file with nothing but free-form surfaces it is told that these are not read") {
+  const apps::MeshResult read = apps::read_mesh("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\ncstype bezier\ndeg 1 1\nsurf 0 1 0 1 1 2 3 4\nend\n",
+                                                *apps::mesh_format("a.obj"));
+  REQUIRE_FALSE(read.mesh);
+  CHECK(read.errors.at(0).sentence.find("free-form surfaces (surf), which are not read") != std::string::npos);
+}
+
+TEST_CASE("OBJ: what editors leave at the end of lines and of the file changes nothing") {
+  const std::string vertices = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
+  for (const char* const faces :
+       {"f 1 2 3 4\n", "f 1 2 \\\n3 4\n", "f 1 2 \\ \t\n3 4\n", "f 1 2 3 4\n\x1a", "f 1 2 3 4\x1a", "f 1 2 3 4 \\ \n"}) {
+    CAPTURE(faces);
+    const apps::MeshResult read = apps::read_mesh(vertices + faces, *apps::mesh_format("a.obj"));
+    REQUIRE(read.mesh);
+    REQUIRE(read.mesh->builder.face_count() == 1);
+    CHECK(read.mesh->builder.corners(0).size() == 4);
+  }
+}

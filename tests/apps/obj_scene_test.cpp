@@ -128,6 +128,56 @@ TEST_CASE("MTL: a library is looked for beside the file, too, and what only a lo
   }
 }
 
+TEST_CASE("MTL: words count in upper and lower case, and a colour may be followed by an opacity") {
+  for (const char* const words :
+       {"Kd 0.5 0.25 0.125\nKe 1 2 3\nd 0.6\n", "kd 0.5 0.25 0.125 0.3\nke 1 2 3 1\nD 0.6\n", "KD 0.5 0.25 0.125\nKE 1 2 3\nTR 0.4\n"}) {
+    CAPTURE(words);
+    const apps::ModelMaterial wall = read("a.obj", models::room_obj, {{"room.mtl", std::string("newmtl wall\n") + words}}).materials.at(0);
+    CHECK(wall.reflectance == radiosity::Color(0.5, 0.25, 0.125));
+    CHECK(wall.emission.z == 3.0 * std::numbers::pi);
+    CHECK(wall.opacity == Approx(0.6));
+  }
+}
+
+TEST_CASE("MTL: names of pictures may contain blanks, behind any options") {
+  for (const char* const options :
+       {"", "-s 1 2 1 ", "-s 2 ", "-o 0 0 -clamp on ", "-mm 0 1 -blendu off -bm 0.5 ", "-t 0 0 0 -imfchan r "}) {
+    std::vector<std::string> asked;
+    const apps::SideFile record = [&](const std::string& name, std::string& fault) -> std::optional<std::string> {
+      asked.push_back(name);
+      fault = "is not there";
+      return name == "room.mtl" ? std::optional(std::string("newmtl wall\nmap_Kd ") + options + "my red wall.png\n") : std::nullopt;
+    };
+    CAPTURE(options);
+    CHECK(models::format("a.obj").read(models::room_obj, record).model);
+    CHECK(asked == std::vector<std::string>{"room.mtl", "my red wall.png"});
+  }
+}
+
+TEST_CASE("OBJ: a material that no library defines is told, if there are libraries") {
+  const std::string of_two = models::room_obj + "usemtl paint\nf 1 2 3\n";
+  CHECK(noted(read("a.obj", of_two, {{"room.mtl", "newmtl wall\nKd 0.5\n"}}).notes,
+              "materials are not defined in the libraries of the file, 'paint'"));
+  CHECK_FALSE(noted(read("a.obj", of_two, {{"room.mtl", "newmtl wall\nnewmtl paint\n"}}).notes, "not defined"));
+  CHECK_FALSE(noted(read("a.obj", of_two).notes, "not defined"));
+  CHECK_FALSE(
+      noted(read("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nmtllib \"room.mtl\"\nf 1 2 3\n", {{"room.mtl", "newmtl wall\n"}}).notes, "not"));
+}
+
+TEST_CASE("files beside a file are found under names that differ only in upper and lower case, if there is only one") {
+  const program::Place place;
+  place.write("room.obj", models::room_obj);
+  place.write("Room.MTL", "newmtl wall\nKd 0.25\nKe 1\n");
+  CHECK(place.run("info room.obj").out.find("reflectance 0.25") != std::string::npos);
+  place.write("ROOM.MTL", "newmtl wall\nKd 0.75\nKe 1\n");
+  CHECK(place.run("info room.obj").out.find("are not known") != std::string::npos);
+  place.write("room.mtl", "newmtl wall\nKd 0.5\nKe 1\n");
+  CHECK(place.run("info room.obj").out.find("reflectance 0.5") != std::string::npos);
+  place.write("b.mtl", "newmtl wall\nKd 0.125\nKe 1\n");
+  place.write("b.obj", "mtllib B.Mtl\n" + models::room_obj.substr(models::room_obj.find('\n') + 1));
+  CHECK(place.run("info b.obj").out.find("reflectance 0.125") != std::string::npos);
+}
+
 TEST_CASE("a model without a lamp stands in a studio, what is closed around it cannot be lit from there") {
   const apps::SceneFile file = scene("a.off", "OFF\n4 4 6\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n");
   REQUIRE(file.scene.objects.size() == 3);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // VRML 97: what it shares with VRML 1.0 means the same; what is its own has areas and volumes that are known.
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -10,6 +11,7 @@
 #include <glm/geometric.hpp>
 
 #include <radiosity/scene/bounds.hpp>
+#include <radiosity/visibility/prepare.hpp>
 
 #include "models.hpp"
 #include "vrml_twins.hpp"
@@ -197,6 +199,61 @@ TEST_CASE("VRML 97: an instance of a prototype is its body with the values of th
   CHECK(noted(read97("PROTO P [ field SFFloat f 1 ] { Shape { geometry Box { size IS f } } } P { f 2 g 3 }").notes, "P has no field 'g'"));
   CHECK(noted(read97("PROTO P [ field SFFloat f 1 ] { Shape { geometry Box { size IS f } } } P { }").notes,
               "no prototype around has a field 'f'"));
+}
+
+// Instances are the same wherever their prototype stands: here, or in another file that has it under any name and folder.
+TEST_CASE("VRML 97: prototypes of other files make what prototypes of the file make") {
+  const std::string fields = "[ field SFColor c 1 0 0 field SFFloat r 1 ]", types = "[ field SFColor c field SFFloat r ]";
+  const auto prototype = [&](const std::string& name, const std::string& geometry) {
+    return "PROTO " + name + " " + fields +
+           " { Shape { appearance Appearance { material Material { diffuseColor IS c } texture ImageTexture " +
+           "{ url \"p.png\" } } geometry " + geometry + " } }\n";
+  };
+  const std::string ball = prototype("Ball", "Sphere { radius IS r }"), cone = prototype("Cone2", "Cone { height IS r }");
+  const std::string uses = "Ball { } Transform { translation 5 0 0 children Ball { c 0 1 0 r 2 } } Viewpoint { } PointLight { }";
+  const apps::Model expected = read97(ball + uses);
+  REQUIRE(expected.objects.size() == 2);
+  const auto external = [&](const std::string& urls) { return "EXTERNPROTO Ball " + types + " " + urls + "\n"; };
+  const models::Files files{
+      {"first.wrl", vrml_twins::head + ball + cone},
+      {"in/second.wrl", vrml_twins::head + cone + ball},
+      {"other.wrl", vrml_twins::head + "PROTO Globe " + fields + " { Group { } }\n" + prototype("Globe", "Sphere { radius IS r }")},
+      {"in/links.wrl", vrml_twins::head + external("\"second.wrl#Ball\"") + "Box { }"}};
+  for (const char* const urls : {"\"first.wrl\"", "[ \"first.wrl#Ball\" ]", "\"in/second.wrl#Ball\"",
+                                 "[ \"urn:a:b\" \"http://a.b/c.wrl#Ball\" \"lost.wrl\" \"first.wrl\" ]",
+                                 "[ \"first.wrl#Lost\" \"other.wrl#Globe\" ]", "\"./in/links.wrl#Ball\""}) {
+    CAPTURE(urls);
+    check_same(read97(external(urls) + uses, files), expected);
+  }
+  // What stands in another file is told with its name, and pictures are beside it.
+  CHECK(noted(read97(external("\"in/second.wrl#Ball\"") + uses, files).notes, "of in/second.wrl"));
+  std::vector<std::string> asked;
+  const apps::SideFile record = [&](const std::string& name, std::string& fault) -> std::optional<std::string> {
+    asked.push_back(name);
+    return models::beside(files)(name, fault);
+  };
+  static_cast<void>(models::format("a.wrl").read(vrml_twins::head + external("\"in/second.wrl#Ball\"") + uses, record));
+  CHECK(asked == std::vector<std::string>{"in/second.wrl", "in/p.png"});
+  // Files that name each other end somewhere; a file with prototypes only has nothing to see.
+  const models::Files circle{{"a.wrl", vrml_twins::head + external("\"b.wrl\"") + "Ball { }"},
+                             {"b.wrl", vrml_twins::head + external("\"a.wrl\"") + "Ball { }"}};
+  CHECK(noted(read97(external("\"a.wrl\"") + uses + "Shape { geometry Box { } }", circle).notes, "is in another file"));
+  CHECK(read97(ball).objects.empty());
+}
+
+// Exporters write solids scaled to nothing, such as the handles of an editor.
+TEST_CASE("VRML 97: solids that are lost in rounding beside the model are left out, small ones are not") {
+  for (const double size : {1e-30, 1e-13, 1e-6, 1e-3}) {
+    CAPTURE(size);
+    const std::string factor = "1e" + std::to_string(static_cast<int>(std::lround(std::log10(size))));
+    const std::string scale = " scale " + factor + " " + factor + " " + factor;
+    const apps::SceneFile file = models::scene("a.wrl", vrml_twins::head + "DEF large Shape { geometry Sphere { } }\nTransform {" + scale +
+                                                            " children DEF small Shape { geometry Box { } } }");
+    const bool there = std::any_of(file.scene.objects.begin(), file.scene.objects.end(), [](const auto& o) { return o.name == "small"; });
+    CHECK(there == (size > 1e-10));
+    CHECK(noted(file.notes, "1 solid is smaller than 1e-11 of the model: left out") == !there);
+    CHECK(radiosity::prepare(file.scene).faults.empty());
+  }
 }
 
 TEST_CASE("VRML 97: groups, levels, files, colours of pictures, and what has no surface") {
