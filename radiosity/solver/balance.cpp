@@ -87,10 +87,12 @@ HALFLIGHT_INLINE std::vector<double> balance(const SymmetricOperator& apply, con
   // The best scale so far. If the system is nearly singular, a Newton step may lead away from the goal.
   double nearest = std::numeric_limits<double>::infinity(), start = nearest;
   std::vector<double> nearest_scale = matrix.scale;
-  for (bool plain = true; !matrix.exhausted(); plain = false) {
+  int idle = 0;  // consecutive rounds that came hardly nearer, as where no scale meets the goal
+  for (bool plain = true; !matrix.exhausted() && idle < 3; plain = false) {
     matrix(ones, rows);
     const double off = detail::distance(rows, t);
     if (plain) { start = off; }
+    idle = off < 0.9 * nearest ? 0 : idle + 1;
     if (off < nearest) {
       nearest = off;
       nearest_scale = matrix.scale;
@@ -105,10 +107,14 @@ HALFLIGHT_INLINE std::vector<double> balance(const SymmetricOperator& apply, con
     if (worst < goal.tolerance) { return off <= start ? matrix.scale : nearest_scale; }
     // Far from the goal a Newton step may lead anywhere, so one step of the simple iteration comes first.
     std::vector<double> step;
-    if (!plain) { step = detail::newton_step(matrix, rows, free, missing, std::min(0.1, worst)); }
+    if (!plain) {
+      // No more exactly than the goal needs, which the last step would exceed by far (Kelley 1995, 6.3).
+      const double part = std::max(std::min(0.1, worst), 0.1 * goal.tolerance / worst);
+      step = detail::newton_step(matrix, rows, free, missing, part);
+    }
     for (std::size_t i = 0; i < n; ++i) {
       if (!free[i]) { continue; }
-      matrix.scale[i] = limit(matrix.scale[i] * (plain ? std::sqrt(t[i] / rows[i]) : std::clamp(1.0 + step[i], 0.5, 2.0)));
+      matrix.scale[i] = limit(matrix.scale[i] * (plain ? std::sqrt(t[i] / rows[i]) : std::clamp(std::exp(step[i]), 0.5, 2.0)));
     }
   }
   return nearest_scale;
