@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
 #include <brep/union_find.hpp>
@@ -57,8 +58,9 @@ struct LeafArea {
 
 struct RayEnd {
   enum class What : char { front, back, nowhere };
-  std::uint32_t from = 0, to = 0;  // input faces
+  std::uint32_t leaf = 0, from = 0, to = 0;  // where it begins: a leaf and its input face; where it ends: an input face
   What what = What::front;
+  raycast::ScenePoint at = {};  // on a back
 };
 
 [[nodiscard]] HALFLIGHT_INLINE RayEnd cast_from(const DiscreteScene& scene, const LeafLocator& leaves, std::uint32_t leaf, Random& random) {
@@ -76,15 +78,15 @@ struct RayEnd {
   // on the surface.
   const std::uint32_t own = input_face(scene.hierarchy, leaf);
   const raycast::ScenePoint from{scene.objects.object(node.object).project(sheet, p), node.object, sheet};
-  if (scene.objects.covered(from)) { return {own, own, RayEnd::What::front}; }
+  if (scene.objects.covered(from)) { return {leaf, own, own}; }
   const double u = random.uniform();
   const glm::dvec3 direction = cosine_direction(from.normal, u, random.uniform()) * scene.objects.diameter();
   const auto hit = scene.objects.closest(from, direction);
-  if (!hit) { return {own, own, RayEnd::What::nowhere}; }
-  if (!hit->front) { return {own, own, RayEnd::What::back}; }
+  if (!hit) { return {leaf, own, own, RayEnd::What::nowhere}; }
   const raycast::ScenePoint at = scene.objects.point(*hit, {from.position, direction});
+  if (!hit->front) { return {leaf, own, own, RayEnd::What::back, at}; }
   const std::uint32_t met = leaves(scene.surfaces[hit->object].first_surface + hit->sheet, at);
-  return {own, met == no_node ? own : input_face(scene.hierarchy, met), RayEnd::What::front};
+  return {leaf, own, met == no_node ? own : input_face(scene.hierarchy, met)};
 }
 
 // Casts one ray from each of `rays` points, stratified over the area.
@@ -115,9 +117,11 @@ struct RayEnd {
 
 // Input faces joined by rays; each part is named by one of its input faces and counts the rays cast from it.
 struct ConnectedParts {
-  enum class Closed : char { unknown, no, yes };
+  // but_backs: all that it loses is absorbed by the black backs of a few planes.
+  enum class Closed : char { unknown, no, but_backs, yes };
 
-  explicit ConnectedParts(std::size_t nodes) : joined(nodes), rays(nodes, 0), lost(nodes, 0) {}
+  explicit ConnectedParts(const DiscreteScene& of)
+      : scene(of), joined(of.hierarchy.size()), rays(of.hierarchy.size(), 0), lost(rays), lost_for_good(rays), backs(rays.size()) {}
 
   void connect(const std::vector<RayEnd>& ends) {
     for (const RayEnd& end : ends) {
@@ -126,8 +130,11 @@ struct ConnectedParts {
   }
   void count(const std::vector<RayEnd>& ends) {
     for (const RayEnd& end : ends) {
-      ++rays[joined.find(end.from)];
-      lost[joined.find(end.from)] += end.what == RayEnd::What::front ? 0 : 1;
+      const std::uint32_t part = joined.find(end.from);
+      ++rays[part];
+      if (end.what == RayEnd::What::front) { continue; }
+      ++lost[part];
+      lost_for_good[part] += end.what == RayEnd::What::back && add_back(backs[part], end.at) ? 0 : 1;
     }
   }
   // Is the part of this input face closed, judged from `of` rays cast in all?
@@ -136,39 +143,61 @@ struct ConnectedParts {
     if (std::uint64_t{rays[part]} * closing_ray_count < std::uint64_t{fewest_closing_rays} * of) {
       return lost[part] > 0 ? Closed::no : Closed::unknown;
     }
-    return std::uint64_t{lost[part]} * of <= std::uint64_t{rays[part]} * most_lost ? Closed::yes : Closed::no;
+    const auto few = [&](std::uint32_t count) { return std::uint64_t{count} * of <= std::uint64_t{rays[part]} * most_lost; };
+    return few(lost[part]) ? Closed::yes : few(lost_for_good[part]) ? Closed::but_backs : Closed::no;
   }
-
+  const DiscreteScene& scene;
   brep::detail::UnionFind joined;
-  std::vector<std::uint32_t> rays, lost;
+  std::vector<std::uint32_t> rays, lost, lost_for_good;  // lost_for_good: not on one of `backs`
+  std::vector<std::vector<raycast::ScenePoint>> backs;   // a point in each plane of which rays hit the back
+
+ private:
+  static constexpr std::size_t most_backs = 64;  // each costs a test for each patch
+
+  // Returns false if the surface is not flat, or there are too many planes.
+  [[nodiscard]] bool add_back(std::vector<raycast::ScenePoint>& its, const raycast::ScenePoint& at) const {
+    if (!scene.objects.object(at.object).flat()) { return false; }
+    const auto same_plane = [&](const raycast::ScenePoint& other) {
+      return glm::dot(other.normal, at.normal) > 1.0 - 1e-12 &&
+             std::abs(glm::dot(other.position - at.position, at.normal)) <= 1e-9 * scene.objects.diameter();
+    };
+    if (std::any_of(its.begin(), its.end(), same_plane)) { return true; }
+    if (its.size() == most_backs) { return false; }
+    its.push_back(at);
+    return true;
+  }
 };
 
-// The nodes of closed parts, with all descendants of their input faces. Empty if there are none.
-[[nodiscard]] HALFLIGHT_INLINE std::vector<bool> closed_nodes_of(const DiscreteScene& scene, ConnectedParts& parts, std::uint32_t rays) {
+// The nodes of closed parts, and those of parts that only lose light to backs, with all descendants of their input faces.
+HALFLIGHT_INLINE PartsWithoutLoss closed_nodes_of(const DiscreteScene& scene, ConnectedParts& parts, std::uint32_t rays) {
   using Closed = ConnectedParts::Closed;
   const Hierarchy& hierarchy = scene.hierarchy;
-  // By surface: is some face in a closed part, some in an open one?
+  // By surface: is some face in a closed part, some in another one?
   std::vector<bool> some(scene.inputs.size(), false), open(scene.inputs.size(), false);
-  const auto each_face = [&](const auto& visit) {
-    for (std::uint32_t i = 0; i < hierarchy.size(); ++i) {
-      if (is_input_face(hierarchy, i)) { visit(i, hierarchy[i].surface, parts.closed(i, rays)); }
+  std::vector<Closed> of(hierarchy.size(), Closed::no);
+  PartsWithoutLoss found{std::vector<bool>(hierarchy.size(), false), std::vector<bool>(hierarchy.size(), false), {}};
+  for (std::uint32_t i = 0; i < hierarchy.size(); ++i) {
+    if (!is_input_face(hierarchy, i)) { continue; }
+    of[i] = parts.closed(i, rays);
+    const std::uint32_t surface = hierarchy[i].surface;
+    some[surface] = some[surface] || of[i] == Closed::yes;
+    open[surface] = open[surface] || of[i] == Closed::no || of[i] == Closed::but_backs;
+    if (of[i] == Closed::but_backs && parts.joined.find(i) == i) {
+      found.backs.insert(found.backs.end(), parts.backs[i].begin(), parts.backs[i].end());
     }
-  };
-  each_face([&](std::uint32_t, std::uint32_t surface, Closed closed) {
-    some[surface] = some[surface] || closed == Closed::yes;
-    open[surface] = open[surface] || closed == Closed::no;
-  });
-  std::vector<bool> nodes(hierarchy.size(), false);
-  bool any = false;
-  each_face([&](std::uint32_t i, std::uint32_t surface, Closed closed) {
-    nodes[i] = closed == Closed::yes || (closed == Closed::unknown && some[surface] && !open[surface]);
-    any = any || nodes[i];
-  });
-  if (!any) { return {}; }
-  for (std::uint32_t i = 0; i < hierarchy.size(); ++i) {  // parents come first
-    if (!hierarchy[i].is_cluster() && !is_input_face(hierarchy, i)) { nodes[i] = nodes[hierarchy[i].parent]; }
   }
-  return nodes;
+  for (std::uint32_t i = 0; i < hierarchy.size(); ++i) {  // parents come first
+    if (hierarchy[i].is_cluster()) { continue; }
+    const std::uint32_t surface = hierarchy[i].surface;
+    if (!is_input_face(hierarchy, i)) {
+      of[i] = of[hierarchy[i].parent];
+    } else if (of[i] == Closed::unknown && some[surface] && !open[surface]) {
+      of[i] = Closed::yes;
+    }
+    found.all[i] = of[i] == Closed::yes;
+    found.but_backs[i] = of[i] == Closed::but_backs;
+  }
+  return found;
 }
 
 // Is there a closed part that emits light of some channel and absorbs none of it?
@@ -204,7 +233,7 @@ HALFLIGHT_INLINE ClosedParts find_closed_parts(const DiscreteScene& scene) {
   const LeafLocator leaves(scene.hierarchy, scene.patches, scene.inputs.size());
   for (const std::uint32_t rays : {detail::stray_ray_count, detail::closing_ray_count}) {
     const std::vector<detail::RayEnd> ends = detail::cast(scene, leaves, all, rays, 0x7374726179ull);
-    detail::ConnectedParts parts(scene.hierarchy.size());
+    detail::ConnectedParts parts(scene);
     parts.connect(ends);
     for (std::size_t k = 0; k < lamps.size() && lamps.size() <= detail::most_lamps; ++k) {
       parts.connect(detail::cast(scene, leaves, lamps[k], detail::rays_of_lamp, 0x6c616d70ull + k));
@@ -213,12 +242,19 @@ HALFLIGHT_INLINE ClosedParts find_closed_parts(const DiscreteScene& scene) {
     found.stray = detail::count_stray(ends);
     // If the whole scene is closed, so are the nodes that no ray has met.
     const bool whole = !ends.empty() && found.stray.lost() <= detail::most_lost;
-    found.nodes = whole ? std::vector<bool>(scene.hierarchy.size(), true) : detail::closed_nodes_of(scene, parts, rays);
-    found.lossless = !found.nodes.empty() && detail::keeps_all_light(scene, parts, found.nodes);
-    if (found.nodes.empty()) { break; }
+    found.nodes =
+        whole ? PartsWithoutLoss{std::vector<bool>(scene.hierarchy.size(), true), {}, {}} : detail::closed_nodes_of(scene, parts, rays);
+    const auto closed = [&](std::uint32_t i) { return scene.loses_nothing(found.nodes, i); };
+    bool any = false;
+    for (std::uint32_t i = 0; i < scene.hierarchy.size() && !any; ++i) { any = scene.hierarchy[i].leaf() && closed(i); }
+    if (!any) {
+      found.nodes = {};
+      break;
+    }
+    found.lossless = detail::keeps_all_light(scene, parts, found.nodes.all);
     for (const detail::RayEnd& end : ends) {
-      found.stray.closed_rays += found.nodes[end.from] ? 1 : 0;
-      found.stray.closed_lost += found.nodes[end.from] && end.what != detail::RayEnd::What::front ? 1 : 0;
+      found.stray.closed_rays += closed(end.leaf) ? 1 : 0;
+      found.stray.closed_lost += closed(end.leaf) && end.what != detail::RayEnd::What::front ? 1 : 0;
     }
   }
   return found;

@@ -6,6 +6,9 @@
 // the outer sides of two-sided walls lose all their light. The rooms within are closed all the same. A wall that is longer than its room
 // continues outside, where other walls cross it; wall_cuts.hpp has cut it there, so that only one of the resulting input faces belongs to
 // the room.
+//
+// A lamp panel under a ceiling is black from behind. A room with such lamps loses light there alone, so that all patches in front of the
+// planes of these panels, the floor and most of the walls, still have row sums of 1.
 
 #include <vector>
 
@@ -16,13 +19,14 @@ namespace radiosity {
 
 struct ClosedParts {
   StrayRays stray;
-  std::vector<bool> nodes;  // by node: does its input face belong to a closed part? Empty if there is no closed part
-  bool lossless = false;    // does one of the parts emit light in some channel and absorb none of it?
+  PartsWithoutLoss nodes;  // empty if no node is known to lose no light
+  bool lossless = false;  // does one of the parts emit light in some channel and absorb none of it?
 };
 
 // Casts a cosine-distributed ray from each of thousands of points, spread over the exposed area. Input faces connected by rays form a
-// part, which counts as closed if hardly any of its rays leaves the scene or hits a black back. An input face in a part with too few rays
-// is classified like the other faces of its surface, if those agree.
+// part, which counts as closed if hardly any of its rays leaves the scene or hits a black back. If they only hit backs that lie in a few
+// planes, those patches of the part count which lie in front of all these planes. An input face in a part with too few rays is classified
+// like the other faces of its surface, if those agree.
 [[nodiscard]] ClosedParts find_closed_parts(const DiscreteScene& scene);
 
 }  // namespace radiosity

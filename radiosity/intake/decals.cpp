@@ -57,13 +57,13 @@ struct FlatComponent {
 
 HALFLIGHT_INLINE std::vector<DecalFace> lay_decals(Working& mesh, const Topology& topology, std::span<const Material> materials) {
   const std::vector<detail::FlatComponent> components = detail::flat_components(mesh, topology, materials);
-  const auto may_be_decal = [](const detail::FlatComponent& c) { return c.flat && c.open && !c.emits; };
+  const auto may_lie = [](const detail::FlatComponent& c) { return c.open && !c.emits; };
   std::vector<DecalFace> found;
-  if (std::none_of(components.begin(), components.end(), may_be_decal)) { return found; }
+  if (std::none_of(components.begin(), components.end(), may_lie)) { return found; }
   const FacesBeside beside(mesh, topology);
   std::vector<std::uint32_t> faces;
   for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) {
-    if (may_be_decal(components[topology.component[f]])) { faces.push_back(f); }
+    if (may_lie(components[topology.component[f]])) { faces.push_back(f); }
   }
   // The largest first, because others may lie on them.
   std::stable_sort(faces.begin(), faces.end(), [&](std::uint32_t a, std::uint32_t b) {
@@ -72,10 +72,13 @@ HALFLIGHT_INLINE std::vector<DecalFace> lay_decals(Working& mesh, const Topology
   for (const std::uint32_t f : faces) {
     const detail::FlatComponent& own = components[topology.component[f]];
     std::vector<Contact> contacts = beside.contacts(f, 4.0 * mesh.tolerance);
-    std::erase_if(contacts, [&](const Contact& contact) { return !(components[topology.component[contact.face]].area > own.area); });
+    const double area = own.flat ? own.area : brep::area(mesh.outline(mesh.faces[f]));
+    std::erase_if(contacts, [&](const Contact& contact) {
+      return !((own.flat ? components[topology.component[contact.face]].area : brep::area(mesh.outline(mesh.faces[contact.face]))) > area);
+    });
     if (contacts.empty()) { continue; }
-    for (const Contact& contact : contacts) { found.push_back({f, contact.face, contact.opposite}); }
-    beside.lay(f, contacts[0], ChangeKind::decal_laid);
+    for (const Contact& contact : contacts) { found.push_back({f, contact.face, contact.opposite, own.flat}); }
+    if (own.flat) { beside.lay(f, contacts[0], ChangeKind::decal_laid); }
   }
   return found;
 }
@@ -115,8 +118,19 @@ HALFLIGHT_INLINE void mark_decals(Working& mesh, const Topology& topology, std::
     }
     return result;
   };
+  const auto stands_before = [&](const DecalFace& f) {
+    const std::uint32_t own = topology.component[f.face], under = topology.component[f.under];
+    const bool opposite = f.opposite != (shells.turned(own) != shells.turned(under));
+    return shells.components()[own].role == Role::surface && (!opposite || shows_back(f.face) || shows_back(f.under));
+  };
   std::map<std::uint32_t, std::vector<DecalFace>> by_component;
-  for (const DecalFace& decal : decals) { by_component[topology.component[decal.face]].push_back(decal); }
+  for (const DecalFace& decal : decals) {
+    if (decal.flat) {
+      by_component[topology.component[decal.face]].push_back(decal);
+    } else if (stands_before(decal)) {
+      shells.show_before_others(topology.component[decal.face]);
+    }
+  }
   std::vector<std::pair<double, std::uint32_t>> by_area;
   for (const auto& [component, own] : by_component) {
     const std::vector<std::uint32_t>& faces = shells.components()[component].faces;

@@ -32,7 +32,7 @@ struct Component {
   bool several = false;                 // do its faces belong to several groups?
   bool one_sided = false;               // of a surface: its back is not visible, because it encloses or lies on something
   bool both_sides = false;              // of a surface: both sides are visible (open_surfaces.hpp)
-  bool flush = false;                   // it lies on something (lamps.hpp, decals.hpp)
+  bool flush = false;                   // it lies or stands on something (lamps.hpp, decals.hpp)
   std::vector<std::uint32_t> cavities;  // of a solid: the components that are its cavities
 };
 
@@ -53,6 +53,8 @@ class Shells {
   // Makes only the front of a surface visible, or only its back, which then becomes its front.
   void show_one_side(std::uint32_t component, bool back);
   void show_both_sides(std::uint32_t component) { components_[component].both_sides = true; }
+  // Makes it a later object than what it stands on, so that it is seen where both coincide.
+  void show_before_others(std::uint32_t component) { components_[component].flush = true; }
 
   [[nodiscard]] std::span<const Room> rooms() const { return rooms_; }
   [[nodiscard]] bool turned(std::uint32_t component) const { return !turned_.empty() && turned_[component]; }

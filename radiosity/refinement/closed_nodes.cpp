@@ -33,11 +33,10 @@ HALFLIGHT_INLINE std::vector<bool> in_open_clusters(const DiscreteScene& scene, 
 }  // namespace detail
 
 HALFLIGHT_INLINE ClosedNodes closed_nodes(const DiscreteScene& scene, const Links& links) {
-  ClosedNodes closed{std::vector<bool>(scene.hierarchy.size(), false), {}};
+  ClosedNodes closed{std::vector<bool>(scene.hierarchy.size(), false), lamp_nodes(scene)};
   if (!scene.any_closed()) { return closed; }
   const std::vector<bool> open = detail::in_open_clusters(scene, links);
   for (std::size_t i = 0; i < closed.nodes.size(); ++i) { closed.nodes[i] = scene.loses_nothing(i) && !open[i]; }
-  closed.lamps = lamp_nodes(scene);
   return closed;
 }
 

@@ -9,6 +9,7 @@
 #include <optional>
 #include <vector>
 
+#include <raycast/object.hpp>
 #include <raycast/scene.hpp>
 
 #include <radiosity/clusters/clusters.hpp>
@@ -32,6 +33,13 @@
 
 namespace radiosity {
 
+// The nodes that lose no light, as far as rays tell (audit/closed_parts.hpp).
+struct PartsWithoutLoss {
+  std::vector<bool> all;                   // by node: is it in a part that loses no light?
+  std::vector<bool> but_backs;             // by node: in a part that loses light to black backs alone? It loses none in front of all these
+  std::vector<raycast::ScenePoint> backs;  // a point in the plane of each of these backs
+};
+
 // The parts refer to each other, so it can be neither copied nor moved.
 struct DiscreteScene {
   // `scene` must outlive this. Nothing is prepared yet.
@@ -50,13 +58,10 @@ struct DiscreteScene {
   // Is node 0 a cluster of the whole scene? Lamps may have clusters even if it is not.
   [[nodiscard]] bool clustered() const { return !hierarchy.empty() && hierarchy[0].is_cluster(); }
   // Are there nodes that lose no light?
-  [[nodiscard]] bool any_closed() const { return plan.closed || !closed.empty(); }
-  // Does node i lose no light? Nodes newer than `closed` inherit this from their parents.
-  [[nodiscard]] bool loses_nothing(std::size_t i) const {
-    if (hierarchy[i].is_cluster() || !any_closed()) { return false; }
-    while (!plan.closed && i >= closed.size()) { i = hierarchy[i].parent; }
-    return plan.closed || closed[i];
-  }
+  [[nodiscard]] bool any_closed() const { return plan.closed || !closed.all.empty(); }
+  // Does node i lose no light? Nodes newer than these lists are in the lists of their parents.
+  [[nodiscard]] bool loses_nothing(std::size_t i) const { return plan.closed ? !hierarchy[i].is_cluster() : loses_nothing(closed, i); }
+  [[nodiscard]] bool loses_nothing(const PartsWithoutLoss& lists, std::size_t i) const;
   // The clusters' projected areas, from the current exposed areas.
   [[nodiscard]] ShownAreas exposed_shown() const;
   // Bytes held by the compiled objects and the BReps.
@@ -77,8 +82,8 @@ struct DiscreteScene {
   std::vector<InputSurface> inputs;
   std::vector<std::uint32_t> materials;      // by input surface
   std::vector<Color> reflectance, emission;  // of these materials
-  std::vector<bool> closed;  // by node: loses no light (closed_parts.hpp); empty if plan.closed says so of all or no closed part was found
-  std::vector<bool> lamps;   // by input surface, if other light goes by stored rays: does its light go by links?
+  PartsWithoutLoss closed;                   // empty if plan.closed says so of all or no closed part was found
+  std::vector<bool> lamps;                   // by input surface, if other light goes by stored rays: does its light go by links?
 
   Hierarchy hierarchy;
   Patches patches;

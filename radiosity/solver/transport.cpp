@@ -164,11 +164,19 @@ HALFLIGHT_INLINE std::vector<double> Transport::row_sums(std::size_t part) {
   return y;
 }
 
-HALFLIGHT_INLINE void Transport::limit_row_sums(const std::vector<double>& rows, double most) {
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    if (!(rows[i] > most)) { continue; }
-    for (Part& part : parts_) { part.scale[i] /= rows[i]; }
+HALFLIGHT_INLINE void Transport::limit_row_sums(std::vector<double> rows, double most) {
+  const auto wanted = [&](const auto& of) {
+    std::vector<double> power(rows.size(), 0.0);  // 0: not to be scaled
+    for (std::size_t i = 0; i < power.size(); ++i) { power[i] = rows[i] > most ? area_[i] * of(i) : 0.0; }
+    return power;
+  };
+  constexpr Balance only_less{{0.0, 1.0}};
+  if (!lamps_.empty() && parts_.size() > 1) {
+    const std::vector<double> of_lamps = row_sums(std::size_t{0});
+    scale_parts(1, wanted([&](std::size_t i) { return lamps_[i] ? 0.0 : std::max(least_left, 1.0 - of_lamps[i]); }), only_less);
+    rows = row_sums();
   }
+  scale_parts(0, wanted([](std::size_t) { return 1.0; }), only_less);
 }
 
 HALFLIGHT_INLINE void Transport::scale_lamps() {
@@ -264,12 +272,19 @@ HALFLIGHT_INLINE std::optional<double> Transport::close(double limit, double tol
   std::vector<double> power(hierarchy_->size(), 0.0);
   const std::vector<double> own = closed_.empty() ? std::vector<double>{} : row_sums();
   for (std::size_t i = 0; i < power.size(); ++i) { power[i] = !(*hierarchy_)[i].leaf() ? 0.0 : closed(i) ? area_[i] : area_[i] * own[i]; }
-  const std::vector<double> scale =
-      balance([&](const std::vector<double>& x, std::vector<double>& y) { apply(x, y); }, power, {{}, tolerance});
-  for (Part& part : parts_) {
-    for (std::size_t i = 0; i < scale.size(); ++i) { part.scale[i] *= scale[i]; }
-  }
+  scale_parts(0, power, {{}, tolerance});
   return rms;
+}
+
+HALFLIGHT_INLINE void Transport::scale_parts(std::size_t first, const std::vector<double>& power, const Balance& goal) {
+  const auto apply_parts = [&](const std::vector<double>& x, std::vector<double>& y) {
+    y.assign(x.size(), 0.0);
+    for (std::size_t part = first; part < parts_.size(); ++part) { apply(part, x, y); }
+  };
+  const std::vector<double> scale = balance(apply_parts, power, goal);
+  for (std::size_t part = first; part < parts_.size(); ++part) {
+    for (std::size_t i = 0; i < scale.size(); ++i) { parts_[part].scale[i] *= scale[i]; }
+  }
 }
 
 HALFLIGHT_INLINE void Transport::gather_into_cluster(std::size_t i) {

@@ -113,8 +113,10 @@ class Transport {
   // By leaf: the sum of its form factors, 1 in a closed scene. 0 at inner nodes.
   [[nodiscard]] std::vector<double> row_sums();
   // Corrects leaves with row sums above `most`, which are impossible but occur for slivers and for leaves in gaps narrower than they are:
-  // scales their links in both directions so that their rows sum to 1, or less if they light each other. `rows`: row_sums().
-  void limit_row_sums(const std::vector<double>& rows, double most);
+  // finds D, 1 at all other leaves and at most 1 at these, such that their rows sum to 1. So where they light each other, as on the two
+  // sides of a gap, each takes half of what is too much. Beside a lamp the other links are scaled first, to 1 minus the row sums of the
+  // lamps: what is too much there is light from places that the lamp hides. `rows`: row_sums().
+  void limit_row_sums(std::vector<double> rows, double most);
 
   // Closes the nodes that lose no light: finds D such that their row sums are 1 and all others unchanged, within the tolerance (symmetric
   // scaling, van Leersum 1989; see balance.hpp), so that row errors by quadrature and sampled visibility are not amplified in the solution
@@ -151,6 +153,8 @@ class Transport {
   // Adds to y the light carried by a part.
   void apply(std::size_t part, const std::vector<double>& x, std::vector<double>& y);
   [[nodiscard]] std::vector<double> row_sums(std::size_t part);
+  // Scales the links of this part and all later ones to these row sums times areas, as far as the limits allow.
+  void scale_parts(std::size_t first, const std::vector<double>& power, const Balance& goal);
   // Scales the links of a part to these row sums, as far as the limits allow.
   void scale(std::size_t part, const std::vector<double>& rows, const ScaleLimits& limits);
   // The area-weighted RMS deviation of the row sums of closed leaves from 1, without leaves that see nothing.

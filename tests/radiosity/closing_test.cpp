@@ -2,10 +2,13 @@
 
 // A closed scene is corrected so that all row sums are 1: what is wrong is taken out of the light between walls, not out of that of lamps.
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <random>
+#include <utility>
+#include <vector>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -19,6 +22,7 @@
 #include <radiosity/scene/scene.hpp>
 #include <radiosity/support/random.hpp>
 #include <raycast/objects/box.hpp>
+#include <raycast/objects/polygon.hpp>
 #include <raycast/objects/sphere.hpp>
 
 #include "catch.hpp"
@@ -93,6 +97,85 @@ TEST_CASE("closing a room leaves the light of a lamp under its ceiling, which hi
       CHECK(solution.audit.row_sum.max < 1.0 + 1e-6);
       CHECK(error_on_ceiling(hung, solution) < (indirect == radiosity::Indirect::links ? 0.04 : 0.06));
     }
+  }
+}
+
+// Panels hang under the ceiling, at several heights, and a thing stands on the floor. What lies below them all cannot see their backs.
+TEST_CASE("in a room with lamps that are black from behind all patches in front of them see light in every direction", "[accuracy]") {
+  const auto seed = std::random_device{}();
+  INFO("seed " << seed);
+  radiosity::Random random{seed, 0x70616e656cull};
+  const auto between = [&](double a, double b) { return a + (b - a) * random.uniform(); };
+  for (int round = 0; round < 8; ++round) {
+    const glm::dvec3 size{between(3.0, 8.0), between(3.0, 8.0), between(2.4, 4.0)};
+    radiosity::Scene scene;
+    scene.materials = {{"wall", radiosity::Color{0.8}, radiosity::Color{0.0}}, {"lamp", radiosity::Color{0.0}, radiosity::Color{1.0}}};
+    scene.objects = {scenes::object("room", raycast::BoxObject::make({0, 0, 0}, size).object, 0, true),
+                     scenes::object("thing", scenes::box({0.3, 0.3, 0.0}, {between(0.6, 1.5), between(0.6, 1.5), between(0.5, 1.5)}), 0)};
+    double lowest = size.z;
+    const int panels = 1 + round % 3;
+    for (int k = 0; k < panels; ++k) {
+      const double x0 = (k + 0.3) * size.x / panels, x1 = x0 + between(0.1, 0.5) * size.x / panels, y0 = between(0.1, 0.4) * size.y,
+                   y1 = y0 + between(0.1, 0.5) * size.y, z = size.z - between(0.01, 0.3);
+      scene.objects.push_back(
+          scenes::object("lamp", raycast::Polygon::make({{x0, y0, z}, {x0, y1, z}, {x1, y1, z}, {x1, y0, z}}).object, 1));
+      lowest = std::min(lowest, z);
+    }
+    radiosity::Options options{.epsilon = 0.01, .audit_points = 0};
+    options.reconstruction = radiosity::Reconstruction::constant;  // a face a leaf
+    const radiosity::Solution solution = scenes::solved(scene, options);
+    CAPTURE(round);
+    REQUIRE(solution.audit.closure);
+    double below = 0.0, closed = 0.0;
+    for (const radiosity::MeshFace& face : solution.mesh.faces) {
+      double top = 0.0;
+      for (std::uint32_t c = face.first_corner; c < face.first_corner + face.corner_count; ++c) {
+        top = std::max(top, solution.mesh.positions[solution.mesh.corners[c].vertex].z);
+      }
+      const double row = solution.row_sum[face.node], area = solution.hierarchy[face.node].area;
+      if (!(top <= lowest) || !(row > 0.0)) { continue; }  // 0: on the floor, under the thing
+      below += area;
+      closed += std::abs(row - 1.0) < 1e-4 ? area : 0.0;
+    }
+    CHECK(closed > 0.9 * below);  // a leaf that was split later may have reached higher
+  }
+}
+
+// What the top of a lamp and the ceiling reflect to each other is most of the light that is reflected at all. Patches there are wider than
+// the gap, so that their computed row sums are up to 1.7; and with a wall missing, nothing tells what the others should be.
+TEST_CASE("in an open room a lamp and the ceiling close above it keep the light that they reflect to each other", "[accuracy]") {
+  const auto seed = std::random_device{}();
+  INFO("seed " << seed);
+  radiosity::Random random{seed, 0x676170ull};
+  const auto between = [&](double a, double b) { return a + (b - a) * random.uniform(); };
+  for (int round = 0; round < 4; ++round) {
+    const double x = between(3.0, 6.0), y = between(3.0, 6.0), z = between(2.4, 3.5), gap = between(0.02, 0.05);
+    radiosity::Scene scene;
+    scene.materials = {{"wall", radiosity::Color{0.8}, radiosity::Color{0.0}}, {"lamp", radiosity::Color{0.5}, radiosity::Color{1.0}}};
+    const auto wall = [&](const char* name, const std::vector<glm::dvec3>& outline) {
+      scene.objects.push_back(scenes::object(name, raycast::Polygon::make(outline).object, 0));
+    };
+    wall("floor", {{0, 0, 0}, {x, 0, 0}, {x, y, 0}, {0, y, 0}});
+    wall("ceiling", {{0, 0, z}, {0, y, z}, {x, y, z}, {x, 0, z}});
+    wall("x0", {{0, 0, 0}, {0, y, 0}, {0, y, z}, {0, 0, z}});
+    wall("x1", {{x, 0, 0}, {x, 0, z}, {x, y, z}, {x, y, 0}});
+    wall("y0", {{0, 0, 0}, {0, 0, z}, {x, 0, z}, {x, 0, 0}});
+    const glm::dvec3 hi{between(0.5, 0.7) * x, between(0.5, 0.7) * y, z - gap};
+    scene.objects.push_back(scenes::object("lamp", scenes::box(hi - glm::dvec3(between(0.3, 0.8), between(0.3, 0.8), 0.1), hi), 1));
+    const auto means = [&](double epsilon) {
+      radiosity::Options options{.epsilon = epsilon, .audit_points = 0};
+      double reflected = 0.0, of_ceiling = 0.0;  // by the lamp
+      for (const radiosity::SurfaceMean& surface : scenes::solved(scene, options).audit.surfaces) {
+        if (surface.name.substr(0, 4) == "lamp") { reflected += surface.area * (surface.radiosity.x - 1.0); }
+        if (surface.name == "ceiling") { of_ceiling = surface.radiosity.x; }
+      }
+      return std::pair(reflected, of_ceiling);
+    };
+    const auto [reflected, of_ceiling] = means(0.01);
+    const auto [finer, finer_ceiling] = means(0.002);
+    CAPTURE(round, x, y, z, gap, hi.x, hi.y);
+    CHECK(reflected == Approx(finer).epsilon(0.03));
+    CHECK(of_ceiling == Approx(finer_ceiling).epsilon(0.02));
   }
 }
 

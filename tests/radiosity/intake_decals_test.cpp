@@ -24,6 +24,7 @@ using radiosity::ChangeKind;
 using rooms::furnished_room;
 using rooms::number_in;
 using rooms::RandomRooms;
+using soup::add_box;
 using soup::count_of;
 using soup::Soup;
 
@@ -107,6 +108,43 @@ TEST_CASE("intake: of flat things that lie on larger ones the smaller is seen, i
       REQUIRE(hit);
       CHECK(hit->front);
       CHECK(taken.objects[hit->object].name == decals[d].name);  // without a number: it has no back
+    }
+  }
+}
+
+TEST_CASE("intake: the bottom of an open box that stands on a floor is seen, in any order of the file") {
+  const unsigned seed = std::random_device{}();
+  INFO("seed " << seed);
+  RandomRooms random(seed);
+  for (int round = 0; round < 24; ++round) {
+    CAPTURE(round);
+    Soup walls, box, all;
+    const glm::dvec3 size{number_in(random, 3.0, 6.0), number_in(random, 3.0, 6.0), 3.0};
+    add_box(walls, glm::dvec3(0.0), size, 1, true);
+    const glm::dvec3 lo{number_in(random, 0.2, 1.5), number_in(random, 0.2, 1.5), 0.0};
+    const glm::dvec3 hi = lo + glm::dvec3(number_in(random, 0.3, 1.2), number_in(random, 0.3, 1.2), number_in(random, 0.3, 1.2));
+    add_box(box, lo, hi, 1, round % 2 == 0);
+    all.names = {"first", "second"};
+    const std::uint32_t group_of_box = static_cast<std::uint32_t>(random() % 2);
+    for (const bool of_box : {false, true}) {
+      const Soup& soup = of_box ? box : walls;
+      for (std::size_t f = 0; f < soup.count(); ++f) {
+        if (of_box && f / 2 == 5) { continue; }  // its lid
+        if (!of_box && round % 4 < 2 && f / 2 == 3) { continue; }
+        all.polygon(soup.outline(f));
+        all.group.back() = of_box ? group_of_box : 1 - group_of_box;
+      }
+    }
+    const radiosity::Intake taken = all.take_in({.open_sides_unknown = true});
+    std::vector<raycast::PlacedObject> placed;
+    for (const radiosity::SceneObject& object : taken.objects) { placed.emplace_back(object.shape, object.placement); }
+    const raycast::Scene scene(std::move(placed));
+    for (int k = 0; k < 10; ++k) {
+      const glm::dvec3 at = lo + (hi - lo) * glm::dvec3(number_in(random, 0.01, 0.99), number_in(random, 0.01, 0.99), 0.5);
+      const auto hit = scene.closest({at, {0, 0, -1}});
+      REQUIRE(hit);
+      CHECK(hit->front);
+      CHECK(taken.objects[hit->object].name.substr(0, 5) == all.names[group_of_box].substr(0, 5));
     }
   }
 }
