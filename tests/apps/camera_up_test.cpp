@@ -53,7 +53,7 @@ TEST_CASE("cameras that are level about the axis of their format never turn the 
   }
 }
 
-TEST_CASE("cameras at random, in a file with another axis up, tell it; rolled ones agree on none") {
+TEST_CASE("cameras at random, in a file with another axis up, tell it, rolled ones agree on none") {
   const unsigned seed = std::random_device{}();
   INFO("seed " << seed);
   std::mt19937 random(seed);

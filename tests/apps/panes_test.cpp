@@ -87,7 +87,7 @@ TEST_CASE("glTF: what lets most light through is left out, what holds most of it
             .there);  // a lamp
 }
 
-TEST_CASE("OBJ: d is opacity, Tr what it lacks; with both, d counts, and with a picture nothing is left out") {
+TEST_CASE("OBJ: d is opacity, Tr what it lacks, with both, d counts, and with a picture nothing is left out") {
   const auto taken = [](const std::string& words) {
     return scene("a.obj", two_squares("a.mtl"), {{"a.mtl", "newmtl glass\nKd 1 1 1\n" + words + "newmtl wall\nKd 0.5\n"}});
   };
