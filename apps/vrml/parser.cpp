@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "apps/text.hpp"
 #include "apps/vrml/scene_graph.hpp"
 #include "apps/vrml/value_reader.hpp"
 #include "apps/words.hpp"
