@@ -146,6 +146,7 @@ struct ConnectedParts {
     const auto few = [&](std::uint32_t count) { return std::uint64_t{count} * of <= std::uint64_t{rays[part]} * most_lost; };
     return few(lost[part]) ? Closed::yes : few(lost_for_good[part]) ? Closed::but_backs : Closed::no;
   }
+
   const DiscreteScene& scene;
   brep::detail::UnionFind joined;
   std::vector<std::uint32_t> rays, lost, lost_for_good;  // lost_for_good: not on one of `backs`
@@ -169,7 +170,7 @@ struct ConnectedParts {
 };
 
 // The nodes of closed parts, and those of parts that only lose light to backs, with all descendants of their input faces.
-HALFLIGHT_INLINE PartsWithoutLoss closed_nodes_of(const DiscreteScene& scene, ConnectedParts& parts, std::uint32_t rays) {
+[[nodiscard]] HALFLIGHT_INLINE PartsWithoutLoss closed_nodes_of(const DiscreteScene& scene, ConnectedParts& parts, std::uint32_t rays) {
   using Closed = ConnectedParts::Closed;
   const Hierarchy& hierarchy = scene.hierarchy;
   // By surface: is some face in a closed part, some in another one?

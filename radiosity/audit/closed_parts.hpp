@@ -20,7 +20,7 @@ namespace radiosity {
 struct ClosedParts {
   StrayRays stray;
   PartsWithoutLoss nodes;  // empty if no node is known to lose no light
-  bool lossless = false;  // does one of the parts emit light in some channel and absorb none of it?
+  bool lossless = false;   // does one of the parts emit light in some channel and absorb none of it?
 };
 
 // Casts a cosine-distributed ray from each of thousands of points, spread over the exposed area. Input faces connected by rays form a

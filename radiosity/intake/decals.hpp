@@ -36,8 +36,8 @@ struct DecalFace {
 // Marks decals of which more than half lies on other faces. One with the opposite orientation is turned if its back would be visible, too.
 // Otherwise it stays unchanged, because its file says that it is seen from the other side; and so does one on a surface of which both
 // sides are visible, because it may be the other side of it, as a ceiling under a floor. Of components that stand on others, those of which
-// a visible side faces the same way as the other face are shown before it. `backs`: by face, is its back visible if it
-// becomes a surface? The roles of the shells must be known.
+// a visible side faces the same way as the other face are shown before it. `backs`: by face, is its back visible if it becomes a surface?
+// The roles of the shells must be known.
 void mark_decals(Working& mesh, const Topology& topology, std::span<const DecalFace> decals, const std::vector<bool>& backs,
                  Shells& shells);
 
