@@ -31,9 +31,10 @@ class PolygonColors {
   // The texture coordinates of the last polygon of the model, one per corner.
   void lies_at(const Model& model, std::span<const glm::dvec2> corners);
 
-  // Applies all factors; to be called when all polygons and materials are complete. A picture counts with its mean colour or, if it
-  // varies more between polygons than within them (an atlas, a palette, fine triangles), with the mean of its part on each polygon. If a
-  // material has more than 256 colours, those closer than a sixteenth in sRGB are merged.
+  // Applies all factors; to be called when all polygons and materials are complete. A picture counts with its mean colour on the
+  // polygons or, if it varies more between polygons than within them (an atlas, a palette, fine triangles), with the mean of its part on
+  // each. Where a picture of emission is dark, polygons do not shine, as around the lights of a device. If a material has more than 256
+  // colours of one kind, those closer than a sixteenth in sRGB are merged.
   void apply(Model& model, Notes& notes);
 
  private:

@@ -8,6 +8,7 @@
 #include <limits>
 #include <memory>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
@@ -80,35 +81,89 @@ std::shared_ptr<const Picture> Picture::of_pixels(std::uint32_t width, std::span
   }
   if (!(sum.w > 0.0)) { return nullptr; }
   picture->mean_ = radiosity::Color(sum) / sum.w;
+  picture->sum_rows();
   return picture;
 }
 
-const glm::vec4& Picture::at(glm::dvec2 place) const {
-  const auto index = [](double t, std::uint32_t n) {
-    const double within = t - std::floor(t);  // NaN if t is not finite
-    return within >= 0.0 && within < 1.0 ? static_cast<std::size_t>(within * n) : 0;
-  };
-  return pixels_[index(place.y, height_) * width_ + index(place.x, width_)];
+void Picture::sum_rows() {
+  float brightest = 0.0F;
+  for (const glm::vec4& p : pixels_) { brightest = std::max({brightest, p.x, p.y, p.z}); }
+  dark_ = brightest / 1000.0F;
+  Sums all;
+  before_.reserve(std::size_t{width_ + 1} * height_);
+  for (std::size_t row = 0; row < height_; ++row) {
+    Sums sum;
+    for (std::size_t x = 0; x < width_; ++x) {
+      before_.push_back(sum);
+      sum.add(pixel(row * width_ + x), 1.0);
+    }
+    before_.push_back(sum);
+    all.add(sum, 1.0);
+  }
+  whole_ = all.part();
+}
+
+void Picture::Sums::add(const Sums& other, double times) {
+  color += times * other.color;
+  squares += times * other.squares;
+  bright += times * other.bright;
+}
+
+Picture::Part Picture::Sums::part() const {
+  const radiosity::Color mean = glm::max(radiosity::Color(color) / color.w, 0.0);  // differences of sums have rounding
+  return {mean, std::max(0.0, squares / color.w - glm::dot(mean, mean)), !(bright > 0.0)};
+}
+
+Picture::Sums Picture::pixel(std::size_t index) const {
+  const glm::dvec4 p(pixels_[index]);
+  const radiosity::Color color(p);
+  return {p, p.w > 0.0 ? glm::dot(color, color) / p.w : 0.0, std::max({p.x, p.y, p.z}) > dark_ ? 1.0 : 0.0};
+}
+
+Picture::Sums Picture::along_row(std::size_t row, double x) const {
+  const double repeats = std::floor(x / width_);
+  const double within = std::clamp(x - repeats * width_, 0.0, static_cast<double>(width_));
+  const std::size_t whole = std::min(static_cast<std::size_t>(within), std::size_t{width_ - 1});
+  const Sums* const before = &before_[row * (width_ + 1)];
+  Sums sum = before[whole];
+  sum.add(before[width_], repeats);
+  sum.add(pixel(row * width_ + whole), within - static_cast<double>(whole));
+  return sum;
 }
 
 Picture::Part Picture::on_triangle(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c) const {
-  constexpr int rows = 4;  // rows of small triangles, at whose centres the picture is sampled
-  glm::dvec4 sum(0.0);
-  double squares = 0.0;
-  for (int i = 0; i < rows; ++i) {
-    for (int k = 0; k < 2 * i + 1; ++k) {
-      // The small triangle k of row i points up (even k) or down.
-      const double down = k % 2 == 0 ? 2.0 / 3.0 : 1.0 / 3.0;
-      const double v = (i + down) / rows;                                      // from a towards the side bc
-      const double w = (k / 2 + (k % 2 == 0 ? 1.0 / 3.0 : 2.0 / 3.0)) / rows;  // parallel to this side, at most v
-      const glm::dvec4 pixel(at(a + (v - w) * (b - a) + w * (c - a)));
-      sum += pixel;
-      if (pixel.w > 0.0) { squares += glm::dot(radiosity::Color(pixel), radiosity::Color(pixel)) / pixel.w; }
-    }
+  const glm::dvec2 size(width_, height_);
+  const std::array<glm::dvec2, 3> corners{a * size, b * size, c * size};
+  const double top = std::min({corners[0].y, corners[1].y, corners[2].y}), bottom = std::max({corners[0].y, corners[1].y, corners[2].y});
+  constexpr double most_repeats = 16.0, far = 1e9;
+  if (!(bottom - top <= most_repeats * height_)) { return whole_; }
+  for (const glm::dvec2& p : corners) {
+    if (!(std::abs(p.x) < far && std::abs(p.y) < far)) { return whole_; }
   }
-  if (!(sum.w > 0.0)) { return {mean_, 0.0}; }
-  const radiosity::Color mean = radiosity::Color(sum) / sum.w;
-  return {mean, std::max(0.0, squares / sum.w - glm::dot(mean, mean))};
+  const auto row_of = [&](double y) { return static_cast<std::size_t>(y - std::floor(y / height_) * height_) % height_; };
+  Sums sum;
+  for (double y = std::floor(top); y < bottom; y += 1.0) {
+    const double from = std::max(y, top), to = std::min(y + 1.0, bottom), middle = 0.5 * (from + to);
+    double left = far, right = -far;  // where the sides of the triangle cross the middle
+    for (std::size_t i = 0; i < 3; ++i) {
+      const glm::dvec2 &p = corners[i], &q = corners[(i + 1) % 3];
+      if ((p.y <= middle) == (q.y <= middle)) { continue; }
+      const double x = p.x + (middle - p.y) / (q.y - p.y) * (q.x - p.x);
+      left = std::min(left, x);
+      right = std::max(right, x);
+    }
+    if (!(left < right)) { continue; }
+    sum.add(along_row(row_of(y), right), to - from);
+    sum.add(along_row(row_of(y), left), from - to);
+  }
+  const double area = 0.5 * std::abs((corners[1].x - corners[0].x) * (corners[2].y - corners[0].y) -
+                                     (corners[1].y - corners[0].y) * (corners[2].x - corners[0].x));
+  constexpr double rounding = 1e-6;  // of the sums of a row, in pixels: coordinates are floats
+  if (area <= rounding) {            // as in a palette, where all corners lie at one colour
+    const glm::dvec2 middle = (corners[0] + corners[1] + corners[2]) / 3.0;
+    sum = pixel(row_of(middle.y) * width_ + static_cast<std::size_t>(middle.x - std::floor(middle.x / width_) * width_) % width_);
+  }
+  return sum.color.w > rounding * area ? sum.part() : whole_;
 }
 
 }  // namespace apps::intake

@@ -32,16 +32,32 @@ class Picture {
   struct Part {
     radiosity::Color mean{0.0};
     double variance = 0.0;  // within the part: the mean squared distance from its mean
+    bool dark = false;      // no pixel has more than a thousandth of the brightest one of the picture, as black stored as JPEG
   };
   // The part on a triangle with these texture coordinates: (0, 0) is the start of the first row, (1, 1) the end of the last row; the
-  // picture is repeated beyond. Sampled at 16 points. If it is transparent there, the mean of the whole picture.
+  // picture is repeated beyond. Each row of pixels counts with its length on the triangle. The whole picture, if it is transparent
+  // there, or repeated more than 16 times from top to bottom.
   [[nodiscard]] Part on_triangle(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c) const;
 
  private:
-  [[nodiscard]] const glm::vec4& at(glm::dvec2 place) const;
+  // Sums over pixels.
+  struct Sums {
+    glm::dvec4 color{0.0};  // times the opacity, and the opacity
+    double squares = 0.0;   // of the colours, times the opacity
+    double bright = 0.0;    // the number of pixels that are not dark
+    void add(const Sums& other, double times);
+    [[nodiscard]] Part part() const;  // the opacity must be positive
+  };
+  void sum_rows();
+  [[nodiscard]] Sums pixel(std::size_t index) const;
+  // Over a row from x = 0 to x, both in pixels; the row is repeated beyond its ends.
+  [[nodiscard]] Sums along_row(std::size_t row, double x) const;
 
   std::uint32_t width_ = 0, height_ = 0;
   std::vector<glm::vec4> pixels_;  // the colour times the opacity, and the opacity
+  float dark_ = 0.0F;              // the largest channel of a dark pixel
+  std::vector<Sums> before_;       // over the pixels before each in its row, and over the row: width_ + 1 for each row
+  Part whole_;
   radiosity::Color mean_{0.0};
   double most_opaque_ = 0.0;
 };

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Colours that differ from polygon to polygon: each polygon reflects and emits the mean of its own.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -17,6 +18,7 @@
 #include <radiosity/camera/tone.hpp>
 
 #include "apps/gltf_sample.hpp"
+#include "apps/intake/texture.hpp"
 #include "apps/models.hpp"
 #include "apps/picture_file.hpp"
 #include "catch.hpp"
@@ -118,6 +120,65 @@ TEST_CASE("a picture that varies within each polygon more than between them coun
       {{"a.mtl", "newmtl paint\nKd 1 1 1\nmap_Kd p.png\n"}, {"p.png", png}});
   CHECK(near(reflectance(model, 0), mean, 1e-6));
   CHECK(model.material[0] == model.material[1]);
+}
+
+TEST_CASE("of a picture that glows in few places what is dark does not shine, and no light is lost") {
+  const unsigned seed = std::random_device{}();
+  CAPTURE(seed);
+  std::mt19937 random(seed);
+  const auto whole = [&](std::uint32_t n) { return static_cast<std::uint32_t>(random() % n); };
+  for (int run = 0; run < 10; ++run) {
+    // 64 x 64 pixels: lights of 2 x 2 pixels on a black that is up to 3 of 255 levels, as of a JPEG; a net of squares covers it once.
+    const std::uint32_t n = 4 + whole(5), lights = 1 + whole(3);
+    radiosity::Picture picture(64, 64);
+    for (std::size_t i = 0; i < 4096; ++i) {
+      const radiosity::Color black = linear({static_cast<int>(whole(4)), static_cast<int>(whole(4)), static_cast<int>(whole(4))});
+      picture.set(i, black, black);
+    }
+    std::set<std::uint32_t> lit;  // the squares that have a light
+    for (std::uint32_t k = 0; k < lights; ++k) {
+      const std::uint32_t x = whole(63), y = whole(63);
+      for (std::uint32_t i = 0; i < 4; ++i) {
+        const std::uint32_t px = x + i % 2, py = y + i / 2;
+        picture.set(std::size_t{py} * 64 + px, radiosity::Color(1.0), radiosity::Color(1.0));
+        // A square has the pixels that it touches.
+        for (std::uint32_t row = py * n / 64; row <= ((py + 1) * n - 1) / 64; ++row) {
+          for (std::uint32_t column = px * n / 64; column <= ((px + 1) * n - 1) / 64; ++column) { lit.insert(row * n + column); }
+        }
+      }
+    }
+    std::string obj = "mtllib a.mtl\nusemtl device\n";
+    for (std::uint32_t i = 0; i <= n; ++i) {
+      for (std::uint32_t k = 0; k <= n; ++k) {
+        const double u = static_cast<double>(k) / n, v = static_cast<double>(i) / n;
+        obj += "v " + std::to_string(u) + " " + std::to_string(v) + " 0\nvt " + std::to_string(u) + " " + std::to_string(1.0 - v) + "\n";
+      }
+    }
+    const auto corner = [&](std::uint32_t i, std::uint32_t k) {
+      const std::string index = std::to_string(i * (n + 1) + k + 1);
+      return " " + index + "/" + index;
+    };
+    for (std::uint32_t i = 0; i < n; ++i) {
+      for (std::uint32_t k = 0; k < n; ++k) {
+        obj += "f" + corner(i, k) + corner(i, k + 1) + corner(i + 1, k + 1) + corner(i + 1, k) + "\n";
+      }
+    }
+    const apps::Model model =
+        models::read("a.obj", obj, {{"a.mtl", "newmtl device\nKd .5 .5 .5\nKe 1 1 1\nmap_Ke p.png\n"}, {"p.png", apps::to_png(picture)}});
+    REQUIRE(model.polygons() == n * n);
+    double light = 0.0, brightest = 0.0;
+    const auto read = apps::intake::Picture::read(apps::to_png(picture));
+    for (std::uint32_t p = 0; p < n * n; ++p) {
+      const double emission = model.materials[model.material[p]].emission.x / std::numbers::pi;
+      if (lit.count(p) == 0) { CHECK(emission == 0.0); }
+      light += emission / (n * n);
+      brightest = std::max(brightest, emission);
+    }
+    REQUIRE(read);
+    // All but the noise on black, whose mean is below half of its largest, and the rounding of colours to 255 levels.
+    const double rounding = lit.size() * 0.6 / 255.0 * 2.4 * std::pow(brightest, 1.4 / 2.4) / (n * n);
+    CHECK(std::abs(light - read->mean().x) < 0.5 * linear({3, 3, 3}).x + rounding);
+  }
 }
 
 TEST_CASE("colours of vertices and faces in OBJ, PLY and OFF are the reflectance") {

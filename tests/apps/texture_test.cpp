@@ -70,6 +70,39 @@ TEST_CASE("textures: the mean of a PNG is that of its pixels in linear light, wh
   CHECK_FALSE(apps::intake::Picture::read("not a picture"));
 }
 
+TEST_CASE("textures: the parts on triangles that tile a rectangle have its mean, each the mean of its points") {
+  const unsigned seed = std::random_device{}();
+  CAPTURE(seed);
+  std::mt19937 random(seed);
+  const auto unit = [&] { return std::uniform_real_distribution(0.0, 1.0)(random); };
+  for (int run = 0; run < 20; ++run) {
+    const auto picture = apps::intake::Picture::read(painted(static_cast<unsigned>(random()), 3 + run, 40 - run).file);
+    REQUIRE(picture);
+    // A rectangle of one to three pictures, anywhere, divided about a point of it.
+    const glm::dvec2 low(std::floor(8.0 * unit()) - 4.0 + unit(), std::floor(8.0 * unit()) - 4.0 + unit());
+    const glm::dvec2 high = low + glm::dvec2(1 + run % 3, 1 + run % 2);
+    const glm::dvec2 corners[4] = {low, {high.x, low.y}, high, {low.x, high.y}};
+    const glm::dvec2 middle = low + glm::dvec2(0.1 + 0.8 * unit(), 0.1 + 0.8 * unit()) * (high - low);
+    radiosity::Color sum(0.0);
+    for (std::size_t i = 0; i < 4; ++i) {
+      const glm::dvec2 &a = corners[i], &b = corners[(i + 1) % 4], ab = b - a, am = middle - a;
+      const apps::intake::Picture::Part part = picture->on_triangle(a, b, middle);
+      sum += 0.5 * std::abs(ab.x * am.y - ab.y * am.x) * part.mean;
+      radiosity::Color points(0.0);  // of the triangle, each looked up as a triangle of no size
+      constexpr int count = 4000;
+      for (int k = 0; k < count; ++k) {
+        const double s = std::sqrt(unit()), t = unit();
+        const glm::dvec2 p = (1.0 - s) * a + s * (1.0 - t) * b + s * t * middle;
+        points += picture->on_triangle(p, p, p).mean / static_cast<double>(count);
+      }
+      CHECK(glm::length(points - part.mean) < 0.04);  // five standard errors: a channel varies by at most 0.35 here
+    }
+    const glm::dvec2 size = high - low;
+    // A row of pixels counts as its middle, so that one crossed by two sides, or at a corner, is off by a part of it.
+    CHECK(glm::length(sum / (size.x * size.y) - picture->mean()) < 0.02);
+  }
+}
+
 TEST_CASE("textures: of OBJ and glTF they count times their factors, wherever they lie, unreadable ones are told") {
   const Painted wood = painted(7, 8, 8), glow = painted(8, 3, 4);
   const models::Files files{{"a.mtl",
