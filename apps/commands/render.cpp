@@ -192,16 +192,17 @@ ExitCode write_solution(Artist& artist, const radiosity::Solution& solution, con
 }
 
 ExitCode run(const RenderOptions& options) {
-  const std::atomic<bool>& cancel = watch_interrupts();
   if (options.solver.error && options.solver.audit_points == 0) {
     return complain("--error needs the audit as its witness; leave --audit 0 out", ExitCode::usage);
   }
   if (const ExitCode code = check(options); code != ExitCode::ok) { return code; }
   Progress progress(options.quiet);
   radiosity::Control control;
-  control.cancel = &cancel;
   control.progress = [&](std::string_view stage, double part) { progress.report(stage, part); };
-  if (!options.light.empty()) { return draw_light(options, control); }
+  if (!options.light.empty()) {
+    control.cancel = &watch_interrupts();
+    return draw_light(options, control);
+  }
   ExitCode code = ExitCode::ok;
   auto text = load_text(options.scene, code);
   auto file = text ? load_scene(options.scene, *text, all_outputs(options), code, options.model) : std::nullopt;
@@ -215,6 +216,7 @@ ExitCode run(const RenderOptions& options) {
   }
   const auto camera = choose_camera(*file, options.camera);
   if (!camera) { return ExitCode::usage; }
+  control.cancel = &watch_interrupts();  // from here on there may be something to show; until here a signal ends the program
 
   radiosity::Options settings = solver_options(options);
   if (options.memory) {

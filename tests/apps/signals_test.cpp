@@ -79,6 +79,28 @@ TEST_CASE("every command under every signal leaves no file that was not there, o
   }
 }
 
+TEST_CASE("a signal ends the program at once while it reads a model: there is nothing to show yet") {
+  const Place place;
+  std::string obj;
+  constexpr int across = 400;  // a terrain of 160 000 squares that are not planar takes seconds to take in
+  for (int i = 0; i <= across; ++i) {
+    for (int k = 0; k <= across; ++k) {
+      obj += "v " + std::to_string(i) + " " + std::to_string((i * 7919 + k * 104729) % 13) + " " + std::to_string(k) + "\n";
+    }
+  }
+  for (int i = 0; i < across; ++i) {
+    for (int k = 0; k < across; ++k) {
+      const int a = i * (across + 1) + k + 1, b = a + across + 1;
+      obj += "f " + std::to_string(a) + " " + std::to_string(a + 1) + " " + std::to_string(b + 1) + " " + std::to_string(b) + "\n";
+    }
+  }
+  place.write("a.obj", obj);
+  const Run run = place.run("render a.obj -o a.png --quiet", "timeout --preserve-status -k 60 -s TERM 0.3 ");
+  INFO(run.err);
+  CHECK(run.code == 128 + SIGTERM);  // ended by the signal, not by the command
+  CHECK(place.entries() == 1);
+}
+
 TEST_CASE("a limit on the size of files is an error of the write in every command, old files stay, no temporary does") {
   const Place place;
   place.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\n");
