@@ -39,11 +39,19 @@ void AddedLight::look_for_light() {
   }
   if (file_.cameras.empty()) { return choose_view(views); }
   if (dark.empty()) { return; }
-  auto inside = views.inside();
-  const bool helps = inside && inside->lit >= LightViews::tol_dark;
+  const bool replaced = !eye_chosen_ && dark.size() == file_.cameras.size();
+  std::optional<radiosity::Camera> better;
+  if (replaced && studio_view_ && views.lit_share(*studio_view_) >= LightViews::tol_dark) { better = studio_view_; }
+  if (auto inside = views.inside(); !better && inside && inside->lit >= LightViews::tol_dark) { better = std::move(inside->camera); }
+  std::string advice;
+  if (better && !eye_chosen_) {
+    advice = replaced
+                 ? "; the picture is taken by another, '" + better->name + "' (the file's own: --camera '" + file_.cameras[0].name + "')"
+                 : "; --camera inside stands in the room of a lamp";
+  }
   note((dark.size() == 1 ? "camera " + dark[0] + " sees" : counted(dark.size(), "camera") + " see") +
-       " next to nothing that a lamp shines on" + (helps && !eye_chosen_ ? "; --camera inside stands in the room of a lamp" : ""));
-  if (helps) { file_.cameras.push_back(std::move(inside->camera)); }
+       " next to nothing that a lamp shines on" + advice);
+  if (better) { file_.cameras.insert(replaced ? file_.cameras.begin() : file_.cameras.end(), *std::move(better)); }
 }
 
 void AddedLight::choose_view(const LightViews& views) {
@@ -142,7 +150,8 @@ bool AddedLight::refused(std::vector<std::string>& faults) const {
 }
 
 void AddedLight::add_studio() {
-  if (file_.cameras.empty()) { file_.cameras.push_back(radiosity::automatic_camera(file_.scene)); }
+  studio_view_ = radiosity::automatic_camera(file_.scene);
+  if (file_.cameras.empty()) { file_.cameras.push_back(*studio_view_); }
   const raycast::Box bounds = radiosity::bounds_without_strays(file_.scene);
   const double size = bounds.diameter();
   const auto strays = std::count_if(file_.scene.objects.begin(), file_.scene.objects.end(), [&](const radiosity::SceneObject& object) {

@@ -3,11 +3,13 @@
 
 // Gives a model of another program light, if it has none, and a camera that sees its light, if its own do not.
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <raycast/box.hpp>
 
+#include <radiosity/camera/view.hpp>
 #include <radiosity/intake/polygons.hpp>
 
 #include "apps/intake/light_views.hpp"
@@ -31,8 +33,9 @@ class AddedLight {
   // Such rooms get lamps, too, if a sun lights nothing that is seen.
   bool light_rooms_without_sun(std::vector<std::string>& faults);
 
-  // If the automatic view sees little of the light, adds a camera that sees more, on another side or inside a lit room; if the cameras of
-  // the file see almost no lit surface, one inside.
+  // If the automatic view sees little of the light, adds a camera that sees more, on another side or inside a lit room. If cameras of the
+  // file see almost no lit surface, adds one that sees the model in its studio, or stands inside; it is the first, which draws the
+  // picture, if none of the file sees more.
   void look_for_light();
 
  private:
@@ -48,6 +51,7 @@ class AddedLight {
   const std::vector<radiosity::Room>& rooms_;
   std::string advice_;
   bool eye_chosen_;
+  std::optional<radiosity::Camera> studio_view_;  // of the model alone
 };
 
 }  // namespace apps

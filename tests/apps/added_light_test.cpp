@@ -12,6 +12,7 @@
 
 #include <raycast/scene.hpp>
 
+#include <radiosity/camera/view.hpp>
 #include <radiosity/scene/material.hpp>
 #include <radiosity/scene/scene.hpp>
 
@@ -120,6 +121,50 @@ TEST_CASE("a house of thick walls without a lamp is lit where it is seen") {
 }
 
 // Walls, floor and ceiling are boxes with a thickness, and there is a doorway, so no shell is a closed room.
+TEST_CASE("where the cameras of a file see nothing but darkness, the picture is taken of the model in its studio, unless the user chose") {
+  const auto seed = std::random_device{}();
+  INFO("seed " << seed);
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  for (int round = 0; round < 12; ++round) {
+    const bool dark = round % 2 == 0, chosen = round % 3 == 0;
+    const glm::dvec3 size = glm::dvec3(0.5) + 2.0 * glm::dvec3(unit(random), unit(random), unit(random));
+    const glm::dvec3 middle(size.x + 0.01, 0.5 * size.y,
+                            0.5 * size.z);  // in a gap of 2 cm between two blocks below a third, where it is dark
+    apps::Model model;
+    model.groups = {"blocks"};
+    model.materials = {{"grey", radiosity::Color(0.5)}};
+    add_box(model, glm::dvec3(0.0), size, false);
+    add_box(model, {size.x + 0.02, 0.0, 0.0}, {2.0 * size.x + 0.02, size.y, size.z}, false);
+    add_box(model, {0.0, 0.0, size.z}, {2.0 * size.x + 0.02, size.y, size.z + 0.3}, false);
+    radiosity::Camera camera;
+    camera.name = "given";
+    const double turn = 6.28 * unit(random);
+    camera.eye = dark ? middle : middle + 8.0 * glm::dvec3(std::cos(turn), std::sin(turn), 0.2);
+    camera.forward = dark ? glm::dvec3(turn > 3.14 ? 1.0 : -1.0, 0.0, 0.0) : middle - camera.eye;
+    if (!chosen) { model.cameras = {camera}; }
+    apps::ModelOptions options;
+    if (chosen) { options.camera = camera; }
+    std::vector<std::string> faults;
+    const auto file = apps::to_scene(std::move(model), apps::UpAxis::z, options, faults);
+    REQUIRE(file);
+    REQUIRE(noted(file->notes, "put into a studio"));
+    CAPTURE(round, dark, chosen, size.x, size.y, size.z, turn);
+    CHECK(noted(file->notes, "next to nothing") == dark);
+    CHECK((file->cameras.front().name == "given") == (!dark || chosen));
+    if (!dark || chosen) { continue; }
+    CHECK(file->cameras.back().name == "given");
+    const radiosity::View view = radiosity::make_view(file->cameras.front(), {100, 100});
+    std::vector<raycast::PlacedObject> objects;
+    for (const radiosity::SceneObject& object : file->scene.objects) { objects.emplace_back(object.shape, object.placement); }
+    const auto hit = raycast::Scene(std::move(objects)).closest({view.eye, view.direction(50.0, 50.0)});
+    REQUIRE(hit);
+    CHECK(hit->front);
+    const glm::dvec3 seen = view.eye + hit->t * view.direction(50.0, 50.0);
+    CHECK(seen.z > 1e-6);  // not the floor of the studio
+  }
+}
+
 TEST_CASE("a room with a doorway and without a lamp is lit if the camera of the file stands in it") {
   const unsigned seed = std::random_device{}();
   INFO("seed " << seed);
