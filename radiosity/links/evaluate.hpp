@@ -168,11 +168,9 @@ class LinkEvaluator {
   [[nodiscard]] LinkVariation variation_of_cluster_link(const Link& link, const ClusterExchange& seen, const LinkVariation& before) const;
   // The errors of faces and links are independent: by position, view, the lattice of directions, and sampling.
   [[nodiscard]] double doubt_of_cluster_link(const Link& link, const LinkVariation& variation) const;
-  [[nodiscard]] PatchEnd end(std::uint32_t i) const {
-    return {&scene_.patches[i], scene_.hierarchy[i].object, exposure_->points(i), scene_.sheet(i)};
+  [[nodiscard]] PatchPair ends(const Link& link) const {
+    return {patch_end(scene_, exposure_, link.p), patch_end(scene_, exposure_, link.q)};
   }
-
-  [[nodiscard]] PatchPair ends(const Link& link) const { return {end(link.p), end(link.q)}; }
 
   SceneView scene_;
   const Exposure* exposure_;
