@@ -61,8 +61,8 @@ struct EvaluateResult {
   RayCount rays;
   std::uint64_t proven_clear = 0;  // links for which no segment was cast
   std::uint64_t blocked = 0;       // links left out because no light arrives
-  PairSample unseen;               // sample of the blocked links without proof; not of measured links
-  DoubtSum doubt;                  // of the links left out, and of all links unless measured links store theirs
+  PairSample unseen;               // sample of the links left out by make_links() because all their segments were blocked, without proof
+  DoubtSum doubt;                  // of the links left out; from make_links() also of those kept (measured links store their own)
   bool cancelled = false;
 
   // Adds what was found for further links.
