@@ -158,7 +158,6 @@ struct Border {
 
 // Edges that touch a vertex of `excused` are left out.
 [[nodiscard]] inline std::vector<Border> borders(const EdgeUses& uses, const FlipPlan& orientation, const std::vector<bool>& excused) {
-  constexpr std::uint32_t none = invalid_index;
   std::vector<Border::Edge> open;
   std::vector<std::uint32_t> enters(excused.size(), 0), leaves(excused.size(), 0);
   for (std::uint32_t e = 0; e < uses.edge_count(); ++e) {
@@ -173,30 +172,30 @@ struct Border {
   std::vector<std::uint32_t> cursor(excused.size(), 0);  // open edges by origin: those not yet taken begin here
   for (std::uint32_t i = static_cast<std::uint32_t>(open.size()); i-- > 0;) { cursor[open[i].from] = i; }
   const auto take = [&](std::uint32_t v) {
-    if (leaves[v] == 0) { return none; }
+    if (leaves[v] == 0) { return invalid_index; }
     --leaves[v];
     return cursor[v]++;
   };
 
   std::vector<Border> all;
   std::vector<Border::Edge> path;
-  std::vector<std::uint32_t> place(excused.size(), none);  // on the path: where the edge that leaves the vertex stands
+  std::vector<std::uint32_t> place(excused.size(), invalid_index);  // on the path: where the edge that leaves the vertex stands
   const auto follow = [&](std::uint32_t start) {
     path.clear();
     place[start] = 0;
-    for (std::uint32_t v = start, i = take(v); i != none; i = take(v)) {
+    for (std::uint32_t v = start, i = take(v); i != invalid_index; i = take(v)) {
       path.push_back(open[i]);
       v = open[i].to;
-      if (place[v] == none) {
+      if (place[v] == invalid_index) {
         place[v] = static_cast<std::uint32_t>(path.size());
         continue;
       }
       all.push_back({{path.begin() + place[v], path.end()}, true});
-      for (std::size_t k = place[v] + 1; k < path.size(); ++k) { place[path[k].from] = none; }
+      for (std::size_t k = place[v] + 1; k < path.size(); ++k) { place[path[k].from] = invalid_index; }
       path.resize(place[v]);
     }
-    for (const Border::Edge& e : path) { place[e.from] = place[e.to] = none; }
-    place[start] = none;
+    for (const Border::Edge& e : path) { place[e.from] = place[e.to] = invalid_index; }
+    place[start] = invalid_index;
     if (!path.empty()) { all.push_back({path, false}); }
   };
   std::vector<std::uint32_t> starts;  // chains that cannot close begin where more edges leave than enter

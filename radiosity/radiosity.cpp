@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include <raycast/inline.hpp>
+#include <brep/inline.hpp>
 
 #include <radiosity/audit/accuracy_target.hpp>
 #include <radiosity/audit/audit_effort.hpp>

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-#include <raycast/inline.hpp>
+#include <brep/inline.hpp>
 
 namespace raycast {
 

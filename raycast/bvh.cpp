@@ -7,9 +7,10 @@
 
 #include <glm/vec3.hpp>
 
+#include <brep/inline.hpp>
+
 #include <raycast/box.hpp>
 #include <raycast/bvh_builder.hpp>
-#include <raycast/inline.hpp>
 
 namespace raycast {
 

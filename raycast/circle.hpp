@@ -4,6 +4,7 @@
 // Common parts of round objects: a frame about an axis, points on a circle, and the number of points for a given chord error.
 
 #include <cmath>
+#include <cstdint>
 
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
@@ -12,6 +13,7 @@
 #include <glm/vec3.hpp>
 
 #include <raycast/box.hpp>
+#include <raycast/spans.hpp>
 
 namespace raycast {
 
@@ -33,6 +35,18 @@ struct AxisFrame {
   // Extends the box by a circle of this radius about a point of the axis: a disk with unit normal w extends r sqrt(1 - w_k^2) along axis k.
   void extend(Box& box, const glm::dvec3& centre, double radius) const;
 };
+
+// Clips the span of a line within the infinite side of a round solid to the part between its bottom (sheet 1, at z = 0) and its top, at
+// z = height; the line is at z + (t - shift) dz. Returns false if it runs parallel to both and not between them.
+[[nodiscard]] inline bool clip_between_caps(Span& span, double z, double dz, double shift, double height, std::uint32_t top_sheet) {
+  if (dz == 0.0) { return z >= 0.0 && z <= height; }
+  const Crossing bottom{shift - z / dz, 1}, top{shift + (height - z) / dz, top_sheet};
+  const Crossing& in = dz > 0.0 ? bottom : top;
+  const Crossing& leave = dz > 0.0 ? top : bottom;
+  if (in.t > span.in.t) { span.in = in; }
+  if (leave.t < span.out.t) { span.out = leave; }
+  return true;
+}
 
 // Point i of n on the unit circle, n a multiple of 4. The other quadrants are exact rotations of the first, so opposite points are exact
 // mirrors.

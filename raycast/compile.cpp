@@ -16,13 +16,13 @@
 #include <glm/vec3.hpp>
 
 #include <brep/ears.hpp>
+#include <brep/inline.hpp>
 #include <brep/polygon.hpp>
 
 #include <raycast/air_cells.hpp>
 #include <raycast/box.hpp>
 #include <raycast/circle.hpp>
 #include <raycast/compiled.hpp>
-#include <raycast/inline.hpp>
 #include <raycast/object.hpp>
 #include <raycast/planar.hpp>
 #include <raycast/ray.hpp>

@@ -6,7 +6,10 @@
 #include <cstdint>
 #include <numeric>
 
-#include <raycast/inline.hpp>
+#include <brep/inline.hpp>
+
+#include <raycast/bundle.hpp>
+#include <raycast/object.hpp>
 
 namespace raycast {
 
@@ -78,7 +81,7 @@ HALFLIGHT_INLINE double Compiled::walk_work() const {
 }
 
 HALFLIGHT_INLINE bool leaves_at_once(const Compiled& scene, std::uint32_t owner, std::uint32_t sheet, const float (&to)[3], float length) {
-  if (sheet == 0xffffffffu || scene.first_sheet[owner] == no_shape) { return false; }
+  if (sheet == unknown_sheet || scene.first_sheet[owner] == no_shape) { return false; }
   const std::array<float, 4>& plane = scene.sheets[scene.first_sheet[owner] + sheet];
   const float height = plane[0] * to[0] + plane[1] * to[1] + plane[2] * to[2] + plane[3];
   // A skin is at most (margin - eps_height) / 4, and the path through it is at most 2 length / height times as long.
@@ -87,7 +90,7 @@ HALFLIGHT_INLINE bool leaves_at_once(const Compiled& scene, std::uint32_t owner,
 }
 
 HALFLIGHT_INLINE bool may_contain(const Compiled& scene, std::uint32_t owner, std::uint32_t object) {
-  if (owner == 0xffffffffu || owner == object || scene.roles[owner] != Role::solid) { return false; }
+  if (owner == no_object || owner == object || scene.roles[owner] != Role::solid) { return false; }
   const FloatBox &a = scene.bounds[owner], &b = scene.bounds[object];
   for (std::size_t k = 0; k < 3; ++k) {
     if (a.hi[k] < b.lo[k] || b.hi[k] < a.lo[k]) { return false; }

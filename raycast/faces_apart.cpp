@@ -15,10 +15,10 @@
 #include <glm/vector_relational.hpp>
 
 #include <brep/ears.hpp>
+#include <brep/inline.hpp>
 
 #include <raycast/box.hpp>
 #include <raycast/bvh.hpp>
-#include <raycast/inline.hpp>
 #include <raycast/point_query.hpp>
 #include <raycast/tolerances.hpp>
 

@@ -16,10 +16,11 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
+#include <brep/inline.hpp>
+
 #include <raycast/box.hpp>
 #include <raycast/bundle.hpp>
 #include <raycast/compiled.hpp>
-#include <raycast/inline.hpp>
 #include <raycast/kernels.hpp>
 #include <raycast/line_query.hpp>
 #include <raycast/object.hpp>

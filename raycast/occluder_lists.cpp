@@ -13,12 +13,12 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
+#include <brep/inline.hpp>
 #include <brep/polygon.hpp>
 
 #include <raycast/box.hpp>
 #include <raycast/bundle.hpp>
 #include <raycast/compiled.hpp>
-#include <raycast/inline.hpp>
 #include <raycast/kernels.hpp>
 #include <raycast/ray.hpp>
 #include <raycast/scene.hpp>

@@ -13,10 +13,11 @@
 
 #include <glm/vec3.hpp>
 
+#include <brep/inline.hpp>
+
 #include <raycast/box.hpp>
 #include <raycast/bundle.hpp>
 #include <raycast/compiled.hpp>
-#include <raycast/inline.hpp>
 #include <raycast/kernels.hpp>
 #include <raycast/object.hpp>
 #include <raycast/ray.hpp>

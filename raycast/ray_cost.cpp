@@ -5,9 +5,10 @@
 #include <cstddef>
 #include <cstdint>
 
+#include <brep/inline.hpp>
+
 #include <raycast/box.hpp>
 #include <raycast/compiled.hpp>
-#include <raycast/inline.hpp>
 #include <raycast/line_query.hpp>
 #include <raycast/ray.hpp>
 #include <raycast/scene.hpp>

@@ -18,12 +18,13 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
+#include <brep/inline.hpp>
+
 #include <raycast/box.hpp>
 #include <raycast/bundle.hpp>
 #include <raycast/bvh.hpp>
 #include <raycast/compile.hpp>
 #include <raycast/compiled.hpp>
-#include <raycast/inline.hpp>
 #include <raycast/isa.hpp>
 #include <raycast/object.hpp>
 #include <raycast/planar.hpp>

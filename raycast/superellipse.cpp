@@ -8,7 +8,8 @@
 
 #include <glm/vec2.hpp>
 
-#include <raycast/inline.hpp>
+#include <brep/inline.hpp>
+
 #include <raycast/roots.hpp>
 
 namespace raycast {

@@ -191,6 +191,24 @@ ExitCode write_solution(Artist& artist, const radiosity::Solution& solution, con
   return complain("not converged: the outputs show what was reached", ExitCode::not_converged);
 }
 
+// If the error of the picture is the target of a run, has the rounds measure it; and if it decides what matters, has errors weighted by
+// what the camera sees. `artist` and `control` must live as long as the run.
+void judge_by_picture(const RenderOptions& options, const radiosity::Options& settings, Artist& artist, radiosity::Control& control) {
+  if (settings.error && options.error_of.value_or(has_picture(options) ? ErrorOf::picture : ErrorOf::surfaces) == ErrorOf::picture) {
+    control.picture_error = [&artist, &control](const radiosity::Mesh& mesh, const radiosity::Frame& frame,
+                                                const radiosity::AuditGoal& goal) -> std::optional<radiosity::PictureError> {
+      const radiosity::Tone tone = artist.tone(mesh);
+      const auto picture = artist.draw(mesh, frame, tone, control);
+      if (!picture) { return std::nullopt; }
+      return artist.audit(*picture, tone, goal.wanted ? goal.and_picture(artist.worth()) : goal, control);
+    };
+  }
+  const bool only_pictures = has_picture(options) && std::all_of(options.outputs.begin(), options.outputs.end(), is_picture);
+  if (options.error_of.value_or(only_pictures ? ErrorOf::picture : ErrorOf::surfaces) == ErrorOf::picture) {
+    control.viewpoint = artist.viewpoint();
+  }
+}
+
 ExitCode run(const RenderOptions& options) {
   if (options.solver.error && options.solver.audit_points == 0) {
     return complain("--error needs the audit as its witness; leave --audit 0 out", ExitCode::usage);
@@ -224,19 +242,7 @@ ExitCode run(const RenderOptions& options) {
     if (!settings.memory) { return ExitCode::failure; }
   }
   Artist artist(options, *file, *camera);
-  if (settings.error && options.error_of.value_or(has_picture(options) ? ErrorOf::picture : ErrorOf::surfaces) == ErrorOf::picture) {
-    control.picture_error = [&](const radiosity::Mesh& mesh, const radiosity::Frame& frame,
-                                const radiosity::AuditGoal& goal) -> std::optional<radiosity::PictureError> {
-      const radiosity::Tone tone = artist.tone(mesh);
-      const auto picture = artist.draw(mesh, frame, tone, control);
-      if (!picture) { return std::nullopt; }
-      return artist.audit(*picture, tone, goal.wanted ? goal.and_picture(artist.worth()) : goal, control);
-    };
-  }
-  const bool only_pictures = has_picture(options) && std::all_of(options.outputs.begin(), options.outputs.end(), is_picture);
-  if (options.error_of.value_or(only_pictures ? ErrorOf::picture : ErrorOf::surfaces) == ErrorOf::picture) {
-    control.viewpoint = artist.viewpoint();
-  }
+  judge_by_picture(options, settings, artist, control);
   const radiosity::Outcome outcome = radiosity::solve(file->scene, settings, control);
   progress.done();
   if (!outcome.solution) { return report_failure(outcome.failure, options.scene); }

@@ -61,7 +61,7 @@ std::string page(const Recording& r) {
   json.key("nodes");
   write_nodes(json, r.nodes, r.names, r.contours);
   json.key("pairs").list(r.pairs, [&](const Pair& pair) {
-    const long parent = pair.parent == none ? -1 : static_cast<long>(pair.parent);
+    const long parent = pair.parent ? static_cast<long>(*pair.parent) : -1;
     json.object("p", pair.p, "q", pair.q, "parent", parent, "generation", pair.generation, "estimate", pair.estimate, "f",
                 word(pair.by_form_factor), "is", word(pair.decision), "why", pair.sentence);
   });

@@ -87,14 +87,14 @@ class Watch {
       }
       return;
     }
-    Pair pair{question.p, question.q, none, 0, 0.0, decision, decision, false, {}};
+    Pair pair{question.p, question.q, {}, 0, 0.0, decision, decision, false, {}};
     pair.estimate = radiosity::form_factor_estimate(question.node_p(), question.node_q());
     if (decision >= radiosity::first_seeing) { pair.by_form_factor = radiosity::FOracle{}(question); }
     for (const auto& [a, b] : {std::pair{question.node_p().parent, question.q}, std::pair{question.p, question.node_q().parent}}) {
       const auto found = by_ends_.find(key(a, b));
       if (a != radiosity::no_node && b != radiosity::no_node && found != by_ends_.end()) { pair.parent = found->second; }
     }
-    if (pair.parent != none) { pair.generation = recording_.pairs[pair.parent].generation + 1; }
+    if (pair.parent) { pair.generation = recording_.pairs[*pair.parent].generation + 1; }
     if (question.hierarchy.size() > recording_.born.size()) { recording_.born.resize(question.hierarchy.size(), pair.generation); }
     by_ends_.emplace(key(pair.p, pair.q), static_cast<std::uint32_t>(recording_.pairs.size()));
     recording_.pairs.push_back(std::move(pair));

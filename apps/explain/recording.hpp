@@ -32,11 +32,9 @@ struct Wanted {
 // The largest size that can be viewed completely. A scene that needs more is refused with a sentence that gives the number and advice.
 inline constexpr std::size_t most_faces = 256, most_nodes = 3000, most_pairs = 12000;
 
-inline constexpr std::uint32_t none = 0xffffffff;
-
 struct Pair {
   std::uint32_t p = 0, q = 0;
-  std::uint32_t parent = none;  // the pair whose split created this one
+  std::optional<std::uint32_t> parent;  // the pair whose split created this one
   std::uint32_t generation = 0;
   double estimate = 0.0;  // the larger of the two disk estimates, paper 4.3
   radiosity::Decision by_form_factor = radiosity::Decision::link;
@@ -70,14 +68,14 @@ struct Iteration {
 
 // A leaf with all vertices on its boundary.
 struct LeafLoop {
-  std::uint32_t node = none;
+  std::uint32_t node = radiosity::no_node;
   radiosity::Polygon corners;
   std::vector<int> levels;  // level tags of the vertices
   std::vector<bool> t_vertex;
 };
 
 struct Triangulated {
-  std::uint32_t node = none;
+  std::uint32_t node = radiosity::no_node;
   radiosity::Polygon corners;
   std::vector<double> simple, weighted;  // radiosity at the corners
 };

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <map>
 #include <tuple>
 #include <utility>
@@ -13,6 +12,7 @@
 #include <glm/geometric.hpp>
 #include <glm/vector_relational.hpp>
 
+#include <brep/handles.hpp>
 #include <brep/polygon.hpp>
 
 #include <raycast/box.hpp>
@@ -96,15 +96,14 @@ radiosity::Mesh in_depth_order(const SceneFile& file, const radiosity::Solution&
 radiosity::Mesh without_suns(const SceneFile& file, const radiosity::Mesh& mesh) {
   if (file.suns.empty()) { return mesh; }
   const std::vector<radiosity::InputSurface> inputs = radiosity::surfaces(file.scene);
-  constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
-  std::vector<std::uint32_t> number(mesh.positions.size(), none);
+  std::vector<std::uint32_t> number(mesh.positions.size(), brep::invalid_index);
   radiosity::Mesh out;
   for (radiosity::MeshFace face : mesh.faces) {
     if (std::find(file.suns.begin(), file.suns.end(), inputs[face.surface].object) != file.suns.end()) { continue; }
     const std::uint32_t first = std::exchange(face.first_corner, static_cast<std::uint32_t>(out.corners.size()));
     for (std::uint32_t c = first; c < first + face.corner_count; ++c) {
       radiosity::MeshCorner corner = mesh.corners[c];
-      if (number[corner.vertex] == none) {
+      if (number[corner.vertex] == brep::invalid_index) {
         number[corner.vertex] = static_cast<std::uint32_t>(out.positions.size());
         out.positions.push_back(mesh.positions[corner.vertex]);
       }

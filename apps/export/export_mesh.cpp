@@ -2,7 +2,6 @@
 #include "apps/export/export_mesh.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <map>
 #include <numeric>
 #include <tuple>
@@ -10,6 +9,7 @@
 
 #include <glm/geometric.hpp>
 
+#include <brep/handles.hpp>
 #include <brep/polygon.hpp>
 
 #include <raycast/object.hpp>
@@ -25,7 +25,6 @@
 namespace apps {
 namespace {
 
-constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 constexpr std::size_t most_groups = 2000;  // more names are of no use, and slow viewers down
 
 glm::dvec3 unit(const glm::dvec3& v, const glm::dvec3& otherwise) {
@@ -43,8 +42,8 @@ ExportMesh solution_mesh(const SceneFile& file, const radiosity::Solution& solut
   ExportMesh out;
   out.cameras = file.cameras;
   // By position: the newest of its vertices, and a chain to the others.
-  std::vector<std::uint32_t> newest(mesh.positions.size(), none), next;
-  std::uint32_t object = none;
+  std::vector<std::uint32_t> newest(mesh.positions.size(), brep::invalid_index), next;
+  std::uint32_t object = brep::invalid_index;
   for (const radiosity::MeshFace& face : mesh.faces) {
     const radiosity::InputSurface& input = inputs[face.surface];
     if (input.object != object && (out.groups.empty() || file.scene.objects.size() <= most_groups)) {
@@ -62,12 +61,12 @@ ExportMesh solution_mesh(const SceneFile& file, const radiosity::Solution& solut
       const glm::dvec3 normal = unit(radiosity::corner_normal(objects[input.object], input.sheet, outline[k], middle), flat);
       const ExportVertex vertex{shown.positions[corner.vertex], normal, corner.radiosity};
       std::uint32_t v = newest[corner.vertex];
-      while (v != none && v >= out.groups.back().first_vertex &&
+      while (v != brep::invalid_index && v >= out.groups.back().first_vertex &&
              (out.vertices[v].position != vertex.position || out.vertices[v].normal != vertex.normal ||
               out.vertices[v].radiosity != vertex.radiosity)) {
         v = next[v];
       }
-      if (v == none || v < out.groups.back().first_vertex) {
+      if (v == brep::invalid_index || v < out.groups.back().first_vertex) {
         v = static_cast<std::uint32_t>(out.vertices.size());
         out.vertices.push_back(vertex);
         next.push_back(std::exchange(newest[corner.vertex], v));

@@ -28,7 +28,7 @@ struct HangingPlace {
 }  // namespace
 
 // A surface with less than a hundredth of the largest exitance does not count as a lamp: many programs give every material a little
-// emission. Those of suns, outside of what they light, are no measure.
+// emission. Suns, which lie outside of what they light, are not considered for the largest.
 LightViews::LightViews(const radiosity::Scene& scene)
     : objects_(radiosity::placed_objects(scene)), size_(radiosity::lit_bounds(scene).diameter()) {
   const std::vector<radiosity::InputSurface> surfaces = radiosity::surfaces(scene);

@@ -10,6 +10,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -74,8 +75,7 @@ struct Material {
   bool two_sided = true;
   radiosity::Color reflectance{0.0}, emission{0.0};
   double diffused = 0.0, transmitted = 0.0;  // shares of the light that passes through: td, ts
-  std::uint32_t number = none;               // its index in the model after its first use; a change resets it
-  static constexpr std::uint32_t none = 0xffffffff;
+  std::optional<std::uint32_t> number;       // its index in the model after its first use; a change resets it
 };
 struct Vertex {
   glm::dvec3 position{0.0}, normal{0.0};

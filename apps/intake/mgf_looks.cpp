@@ -31,12 +31,12 @@ bool Looks::take(const Line& line, Errors& errors) {
 
 std::uint32_t Looks::material() {
   Material& current = materials_.current();
-  if (current.number == Material::none) {
+  if (!current.number) {
     current.number = static_cast<std::uint32_t>(model_.materials.size());
     const double opacity = 1.0 - std::min(1.0, current.diffused + current.transmitted);
     model_.materials.push_back({current.name, current.reflectance, current.emission, current.two_sided, opacity});
   }
-  return current.number;
+  return *current.number;
 }
 
 void Looks::chromaticity(const Line& line, Errors& errors) {
@@ -85,7 +85,7 @@ void Looks::mixture(const Line& line, Errors& errors) {
 
 void Looks::choose_material(const Line& line, Errors& errors) {
   materials_.choose(line, errors);
-  if (line.words.size() != 2) { materials_.current().number = Material::none; }
+  if (line.words.size() != 2) { materials_.current().number.reset(); }
   if (line.word(2) == "=") { materials_.current().name = line.words[1]; }
 }
 
@@ -118,7 +118,7 @@ void Looks::set_color(const glm::dvec3& xyz) {
 }
 
 Material& Looks::changed() {
-  materials_.current().number = Material::none;  // surfaces that already use it keep its previous state
+  materials_.current().number.reset();  // surfaces that already use it keep its previous state
   return materials_.current();
 }
 

@@ -10,6 +10,8 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
+#include <brep/handles.hpp>
+
 #include <raycast/transform.hpp>
 
 #include <radiosity/scene/bounds.hpp>
@@ -148,11 +150,13 @@ std::uint32_t Builder::sheet_index(const Name& sheet, const raycast::Object& sha
 }
 
 std::vector<std::uint32_t> Builder::sheet_materials(const ObjectSyntax& object, const raycast::Object& shape, const Name* around) {
-  constexpr std::uint32_t none = 0xffffffff;
+  constexpr std::uint32_t no_material = brep::invalid_index;
   const Name* const given_material = object.material ? &*object.material : around;
-  const std::uint32_t whole = given_material != nullptr ? material_index(*given_material).value_or(0) : none;
+  const std::uint32_t whole = given_material != nullptr ? material_index(*given_material).value_or(0) : no_material;
   if (object.sheets.empty()) {
-    if (whole == none) { errors_.add(object.name.place, in_quotes(object.name.text) + " has no material, and nothing around it has one"); }
+    if (whole == no_material) {
+      errors_.add(object.name.place, in_quotes(object.name.text) + " has no material, and nothing around it has one");
+    }
     return {whole};
   }
   std::vector<std::uint32_t> result(shape.sheet_count(), whole);
@@ -166,7 +170,7 @@ std::vector<std::uint32_t> Builder::sheet_materials(const ObjectSyntax& object, 
     given[index] = true;
     result[index] = material;
   }
-  const auto bare = std::find(result.begin(), result.end(), none);
+  const auto bare = std::find(result.begin(), result.end(), no_material);
   if (bare != result.end()) {
     const auto index = static_cast<std::uint32_t>(bare - result.begin());
     errors_.add(object.name.place, in_quotes(object.name.text) + " has no material for its sheet " + in_quotes(shape.sheet_name(index)));

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: MIT
-// The file that stores a reference: JSON in a fixed layout, so that reading only compares its head with the expected text and reads
-// numbers.
+// The file that stores a reference: JSON in a fixed layout. A file is valid if the values read from it, written again, give the same text.
 //
 // A study stores it beside the scene, where the user has not requested a file. Therefore an existing file is replaced only if it begins
 // with this scene's key, so that it is an older or damaged copy of the same values.
 #include <algorithm>
-#include <charconv>
-#include <cmath>
+#include <cstddef>
 #include <filesystem>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include "apps/bytes.hpp"
 #include "apps/files.hpp"
+#include "apps/intake/json_reader.hpp"
 #include "apps/scene_file.hpp"
 #include "apps/study/reference.hpp"
 #include "apps/text.hpp"
@@ -22,30 +22,6 @@ namespace {
 
 // The beginning of a file for this key.
 std::string opening(const std::string& key) { return "{\n  \"halflight_reference\": 1,\n  \"key\": \"" + key + "\",\n"; }
-
-// The text before the values.
-std::string text_before_values(const std::string& key, const std::string& checksum, std::uint64_t paths, std::size_t points) {
-  return opening(key) + "  \"checksum\": \"" + checksum + "\",\n  \"paths\": " + std::to_string(paths) +
-         ",\n  \"points\": " + std::to_string(points) +
-         ",\n  \"columns\": \"radiosity and standard error of each channel\",\n  \"values\": [";
-}
-constexpr std::string_view tail = "]\n}\n";
-
-std::string checksum_of(std::uint64_t paths, std::string_view values) {
-  apps::Checksum sum;
-  sum.add(paths);
-  sum.add(values);
-  return sum.text();
-}
-
-// The number after the first `name` in the file.
-std::optional<std::uint64_t> count_after(std::string_view file, std::string_view name) {
-  const std::size_t at = file.find(name);
-  if (at == std::string_view::npos) { return std::nullopt; }
-  std::uint64_t value = 0;
-  const char* const begin = file.data() + at + name.size();
-  return std::from_chars(begin, file.data() + file.size(), value).ec == std::errc() ? std::optional(value) : std::nullopt;
-}
 
 namespace fs = std::filesystem;
 
@@ -105,37 +81,31 @@ std::string to_cache(const TrueRadiosity& truth, const std::string& key) {
     for (int c = 0; c < 3; ++c) { values += apps::shortest(p.radiosity[c]) + ","; }
     for (int c = 0; c < 3; ++c) { values += apps::shortest(p.standard_error[c]) + (c < 2 ? "," : ""); }
   }
-  return text_before_values(key, checksum_of(truth.paths, values), truth.paths, truth.points.size()) + values + std::string(tail);
+  apps::Checksum sum;
+  sum.add(truth.paths);
+  sum.add(values);
+  return opening(key) + "  \"checksum\": \"" + sum.text() + "\",\n  \"paths\": " + std::to_string(truth.paths) +
+         ",\n  \"points\": " + std::to_string(truth.points.size()) +
+         ",\n  \"columns\": \"radiosity and standard error of each channel\",\n  \"values\": [" + values + "]\n}\n";
 }
 
 bool from_cache(std::string_view file, const std::string& key, std::uint64_t least, TrueRadiosity& truth) {
-  const std::optional<std::uint64_t> paths = count_after(file, "\"paths\": ");
-  const std::size_t bracket = file.find('[');
-  if (!paths || *paths < least || bracket == std::string_view::npos || !file.ends_with(tail)) { return false; }
-  const std::string_view values = file.substr(bracket + 1, file.size() - tail.size() - bracket - 1);
-  const std::string expected = text_before_values(key, checksum_of(*paths, values), *paths, truth.points.size());
-  if (file.substr(0, bracket + 1) != expected) { return false; }
-
-  std::vector<double> numbers;
-  numbers.reserve(6 * truth.points.size());
-  const char* at = values.data();
-  const char* const end = at + values.size();
-  while (at != end) {
-    at += *at == '\n' ? 1 : 0;
-    double x = 0.0;
-    const auto [next, code] = std::from_chars(at, end, x);
-    if (code != std::errc() || !std::isfinite(x) || (next != end && *next != ',')) { return false; }
-    numbers.push_back(x);
-    at = next == end ? end : next + 1;
-  }
-  if (numbers.size() != 6 * truth.points.size()) { return false; }
-  for (std::size_t i = 0; i < truth.points.size(); ++i) {
-    for (int c = 0; c < 3; ++c) {
-      truth.points[i].radiosity[c] = numbers[6 * i + static_cast<std::size_t>(c)];
-      truth.points[i].standard_error[c] = numbers[6 * i + 3 + static_cast<std::size_t>(c)];
+  apps::JsonFault unused;
+  const std::optional<apps::JsonValue> root = apps::parse_json(file, unused);
+  if (!root) { return false; }
+  const std::optional<std::size_t> paths = (*root)["paths"].index();
+  const std::vector<apps::JsonValue>& values = (*root)["values"].items();
+  if (!paths || *paths < least || values.size() != 6 * truth.points.size()) { return false; }
+  TrueRadiosity read = truth;
+  read.paths = *paths;
+  for (std::size_t i = 0; i < read.points.size(); ++i) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      read.points[i].radiosity[static_cast<int>(c)] = values[6 * i + c].number();
+      read.points[i].standard_error[static_cast<int>(c)] = values[6 * i + 3 + c].number();
     }
   }
-  truth.paths = *paths;
+  if (to_cache(read, key) != file) { return false; }  // another key, or damaged: then the checksum is not that of the values
+  truth = std::move(read);
   truth.cached = true;
   return true;
 }

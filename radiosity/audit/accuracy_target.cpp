@@ -11,7 +11,7 @@
 
 #include <glm/vec3.hpp>
 
-#include <raycast/inline.hpp>
+#include <brep/inline.hpp>
 
 #include <radiosity/audit/audit_effort.hpp>
 #include <radiosity/hierarchy/hierarchy.hpp>

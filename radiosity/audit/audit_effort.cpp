@@ -7,7 +7,7 @@
 #include <limits>
 #include <optional>
 
-#include <raycast/inline.hpp>
+#include <brep/inline.hpp>
 
 #include <radiosity/result/error_estimate.hpp>
 

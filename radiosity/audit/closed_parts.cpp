@@ -10,9 +10,9 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
+#include <brep/inline.hpp>
 #include <brep/union_find.hpp>
 
-#include <raycast/inline.hpp>
 #include <raycast/object.hpp>
 #include <raycast/scene.hpp>
 

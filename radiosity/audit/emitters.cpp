@@ -21,9 +21,9 @@
 #include <brep/circulators.hpp>
 #include <brep/geometry.hpp>
 #include <brep/handles.hpp>
+#include <brep/inline.hpp>
 
 #include <raycast/box.hpp>
-#include <raycast/inline.hpp>
 #include <raycast/object.hpp>
 #include <raycast/transform.hpp>
 
@@ -68,8 +68,8 @@ HALFLIGHT_INLINE bool Emitters::even(const std::vector<Surface>& surfaces, const
 
 HALFLIGHT_INLINE Emitters::Emitters(const std::vector<Surface>& surfaces, const std::vector<Color>& emission) {
   if (even(surfaces, emission)) { return; }
-  kept_as_.assign(emission.size(), none);
-  node_of_.assign(emission.size(), none);
+  kept_as_.assign(emission.size(), brep::invalid_index);
+  node_of_.assign(emission.size(), brep::invalid_index);
   for (const Surface& surface : surfaces) {
     std::vector<std::vector<Polygon>> curved(surface.object->sheet_count());  // curved faces, by sheet
     std::map<double, std::vector<Polygon>> bodies;                            // flat faces of this object, by exitance
@@ -112,9 +112,9 @@ HALFLIGHT_INLINE Emitters::Emitters(const std::vector<Surface>& surfaces, const 
 
 HALFLIGHT_INLINE void Emitters::guide(std::vector<PhotonGrid::Photon> photons, double diameter) {
   for (PhotonGrid::Photon& photon : photons) {
-    if (kept_as_[photon.source] != none) { photon.source = kept_as_[photon.source]; }
+    if (kept_as_[photon.source] != brep::invalid_index) { photon.source = kept_as_[photon.source]; }
   }
-  std::erase_if(photons, [&](const PhotonGrid::Photon& photon) { return node_of_[photon.source] == none; });
+  std::erase_if(photons, [&](const PhotonGrid::Photon& photon) { return node_of_[photon.source] == brep::invalid_index; });
   photons_ = PhotonGrid{photons, diameter};
 }
 
@@ -293,12 +293,12 @@ HALFLIGHT_INLINE double Emitters::density(const glm::dvec3& x, const glm::dvec3&
   std::size_t top = 0;
   double sum = 0.0;
   const PhotonGrid::Around around = photons_.around(x, n);
-  bool met_sampled = sampled == none;
+  bool met_sampled = sampled == brep::invalid_index;
   const auto take = [&](std::uint32_t index, double by_tree) {
     if (!(by_tree > 0.0)) { return; }
     const Node& node = nodes_[index];
     const double probability =
-        node.surface == none ? by_tree : (1.0 - around.trust) * by_tree + around.trust * around.share_of(node.surface);
+        node.surface == brep::invalid_index ? by_tree : (1.0 - around.trust) * by_tree + around.trust * around.share_of(node.surface);
     if (node.leaf) {
       const double of_leaf = density_of(shapes_[node.first], x, w, index == sampled);
       met_sampled = met_sampled || (index == sampled && of_leaf > 0.0);
@@ -325,7 +325,7 @@ HALFLIGHT_INLINE double Emitters::work(const glm::dvec3& x, const glm::dvec3& n,
   constexpr double node = 0.015;        // fitted to furnaces with some twenty walls of different brightness
   constexpr std::size_t of_a_lamp = 2;  // already included in the cost of a ray among few polygons
   std::size_t opened = 0;
-  static_cast<void>(density(x, n, w, none, &opened));
+  static_cast<void>(density(x, n, w, brep::invalid_index, &opened));
   return opened > of_a_lamp ? node * static_cast<double>(opened - of_a_lamp) : 0.0;
 }
 

@@ -36,6 +36,8 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
+#include <brep/handles.hpp>
+
 #include <raycast/transform.hpp>
 
 #include <radiosity/geometry/form_factor.hpp>
@@ -68,13 +70,14 @@ class Emitters {
 
   // The density per solid angle with which sample() draws the unit direction w. Its integral may be less than 1, because some samples
   // give no direction.
-  [[nodiscard]] double density(const glm::dvec3& x, const glm::dvec3& n, const glm::dvec3& w) const { return density(x, n, w, none); }
+  [[nodiscard]] double density(const glm::dvec3& x, const glm::dvec3& n, const glm::dvec3& w) const {
+    return density(x, n, w, brep::invalid_index);
+  }
 
   // Approximate cost of density() beyond its cost with a single lamp, in microseconds of a core of 2024.
   [[nodiscard]] double work(const glm::dvec3& x, const glm::dvec3& n, const glm::dvec3& w) const;
 
  private:
-  static constexpr std::uint32_t none = 0xffffffff;
   static constexpr std::size_t most_single_faces = 64;  // an object with more faces of the same exitance becomes a body
 
   // Does about the same light come from all sides? See the top of this file.
@@ -99,8 +102,8 @@ class Emitters {
     double offset = 0.0;      // of that plane
     std::uint32_t first = 0;  // leaf: index of its shape; otherwise index of the first of its two children
     bool leaf = true;
-    bool several = false;          // are there several surfaces below?
-    std::uint32_t surface = none;  // surface of all shapes below, set only at the top node of that surface
+    bool several = false;                         // are there several surfaces below?
+    std::uint32_t surface = brep::invalid_index;  // surface of all shapes below, set only at the top node of that surface
   };
 
   void add_flat(std::uint32_t surface, const Polygon& polygon, double exitance);
@@ -120,9 +123,9 @@ class Emitters {
 
   std::vector<Shape> shapes_;
   std::vector<Node> nodes_;  // the root first
-  // By input surface: the surface under which its shapes are stored (all surfaces of a body share one); none: its own.
+  // By input surface: the surface under which its shapes are stored (all surfaces of a body share one); invalid: its own.
   std::vector<std::uint32_t> kept_as_;
-  std::vector<std::uint32_t> node_of_;  // by input surface: top node of its shapes, or none
+  std::vector<std::uint32_t> node_of_;  // by input surface: top node of its shapes, or invalid
   PhotonGrid photons_;
 };
 

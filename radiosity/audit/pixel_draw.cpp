@@ -10,7 +10,7 @@
 
 #include <glm/geometric.hpp>
 
-#include <raycast/inline.hpp>
+#include <brep/inline.hpp>
 
 #include <radiosity/scene/material.hpp>
 #include <radiosity/support/draw.hpp>

@@ -11,9 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include <brep/inline.hpp>
 #include <brep/proportion.hpp>
-
-#include <raycast/inline.hpp>
 
 #include <radiosity/geometry/form_factor.hpp>
 #include <radiosity/hierarchy/hierarchy.hpp>

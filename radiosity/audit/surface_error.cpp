@@ -10,7 +10,8 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
-#include <raycast/inline.hpp>
+#include <brep/inline.hpp>
+
 #include <raycast/object.hpp>
 #include <raycast/scene.hpp>
 #include <raycast/transform.hpp>

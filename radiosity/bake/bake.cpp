@@ -10,7 +10,7 @@
 
 #include <glm/vec3.hpp>
 
-#include <raycast/inline.hpp>
+#include <brep/inline.hpp>
 
 #include <radiosity/bake/own_rays.hpp>
 #include <radiosity/radiosity.hpp>

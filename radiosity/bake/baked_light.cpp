@@ -15,10 +15,10 @@
 #include <glm/vec3.hpp>
 
 #include <brep/finite.hpp>
+#include <brep/inline.hpp>
 
 #include <raycast/box.hpp>
 #include <raycast/bvh.hpp>
-#include <raycast/inline.hpp>
 #include <raycast/point_query.hpp>
 
 #include <radiosity/geometry/chord.hpp>

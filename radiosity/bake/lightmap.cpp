@@ -14,9 +14,8 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include <brep/inline.hpp>
 #include <brep/polygon.hpp>
-
-#include <raycast/inline.hpp>
 
 namespace radiosity {
 
@@ -119,9 +118,8 @@ HALFLIGHT_INLINE Lightmap lay_out(std::vector<LightmapChart> charts, double texe
 }
 
 HALFLIGHT_INLINE Lightmap make_lightmap(const BakedLight& light, const PolygonView& input, double texel, std::uint32_t most) {
-  constexpr std::size_t none = static_cast<std::size_t>(-1);
   std::vector<lightmap::detail::Shared> faces;
-  std::vector<std::size_t> face_of(input.count(), none);
+  std::vector<std::optional<std::size_t>> face_of(input.count());
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::size_t> face_of_sheet;
   for (std::size_t p = 0; p < input.count() && p < light.polygons(); ++p) {
     const std::size_t first = input.first_corner[p];
@@ -132,7 +130,7 @@ HALFLIGHT_INLINE Lightmap make_lightmap(const BakedLight& light, const PolygonVi
       face_of[p] = face_of_sheet.emplace(std::pair(part->object, part->sheet), faces.size()).first->second;
     }
     if (face_of[p] == faces.size()) { faces.emplace_back().first = p; }
-    faces[face_of[p]].add(input, p);
+    faces[*face_of[p]].add(input, p);
   }
   std::vector<LightmapChart> charts;
   for (std::size_t f = 0; f < faces.size(); ++f) {
@@ -148,7 +146,7 @@ HALFLIGHT_INLINE Lightmap make_lightmap(const BakedLight& light, const PolygonVi
     map.fill(chart, [&](const glm::dvec3& point) { return light.radiosity(chart.polygon, point).value_or(Color(0.0)); });
   }
   for (std::size_t p = 0; p < input.count(); ++p) {
-    const LightmapChart* const chart = face_of[p] == none ? nullptr : chart_of[face_of[p]];
+    const LightmapChart* const chart = face_of[p] ? chart_of[*face_of[p]] : nullptr;
     if (chart == nullptr) { continue; }
     map.has_texels[p] = 1;
     for (std::size_t c = input.first_corner[p]; c < input.first_corner[p + 1]; ++c) {

@@ -8,7 +8,7 @@
 
 #include <glm/geometric.hpp>
 
-#include <raycast/inline.hpp>
+#include <brep/inline.hpp>
 
 namespace radiosity {
 

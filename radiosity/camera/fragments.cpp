@@ -6,7 +6,8 @@
 #include <cmath>
 #include <cstddef>
 
-#include <raycast/inline.hpp>
+#include <brep/inline.hpp>
+
 #include <raycast/tolerances.hpp>
 
 #include <radiosity/direct/direct_light.hpp>

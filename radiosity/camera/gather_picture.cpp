@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include <raycast/inline.hpp>
+#include <brep/inline.hpp>
 
 #include <radiosity/camera/fragments.hpp>
 #include <radiosity/camera/indirect_light.hpp>

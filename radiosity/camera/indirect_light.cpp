@@ -9,7 +9,7 @@
 
 #include <glm/geometric.hpp>
 
-#include <raycast/inline.hpp>
+#include <brep/inline.hpp>
 
 #include <radiosity/scene/batches.hpp>
 #include <radiosity/support/random.hpp>

@@ -10,7 +10,9 @@
 
 #include <glm/geometric.hpp>
 
-#include <raycast/inline.hpp>
+#include <brep/handles.hpp>
+#include <brep/inline.hpp>
+
 #include <raycast/tolerances.hpp>
 
 #include <radiosity/scene/material.hpp>
@@ -159,7 +161,7 @@ HALFLIGHT_INLINE Drawing project(const Mesh& mesh, const View& view, std::int64_
 
 struct Sample {
   double inverse_depth = 0.0;
-  std::uint32_t triangle = 0xffffffff;
+  std::uint32_t triangle = brep::invalid_index;
 };
 
 // Rows of samples from `first_row` on.
@@ -200,7 +202,7 @@ HALFLIGHT_INLINE void Band::put(const Drawing& drawing, std::uint32_t index, std
   const double margin = 1e-7 * std::abs(sample.inverse_depth);
   const bool nearer = inverse_depth > sample.inverse_depth + margin;
   const bool tie = !nearer && inverse_depth >= sample.inverse_depth - margin;
-  if (nearer || sample.triangle == 0xffffffff || (tie && triangle.surface >= drawing.triangles[sample.triangle].surface)) {
+  if (nearer || sample.triangle == brep::invalid_index || (tie && triangle.surface >= drawing.triangles[sample.triangle].surface)) {
     sample = {inverse_depth, index};
   }
 }
@@ -281,7 +283,7 @@ HALFLIGHT_INLINE std::optional<Picture> draw(const Mesh& mesh, const View& view,
           const std::int64_t sx = x * n + s % n;
           const std::int64_t sy = y * n + s / n;
           const std::uint32_t index = band.at(sx, sy).triangle;
-          if (index == 0xffffffff) { continue; }
+          if (index == brep::invalid_index) { continue; }
           const Color color = raster::color_at(drawing.triangles[index], band.ray(sx, sy));
           radiosity += color;
           sum += tone(color);
@@ -307,7 +309,7 @@ HALFLIGHT_INLINE double automatic_exposure(const Mesh& mesh, const Scene& scene,
   for (std::int64_t y = 0; y < small.size.height; ++y) {
     for (std::int64_t x = 0; x < small.size.width; ++x) {
       const std::uint32_t index = band.at(x, y).triangle;
-      if (index == 0xffffffff) { continue; }
+      if (index == brep::invalid_index) { continue; }
       const raster::Triangle& triangle = drawing.triangles[index];
       const Material& material = scene.materials[surfaces[triangle.surface].material];
       emitted = std::max({emitted, material.emission.x, material.emission.y, material.emission.z});

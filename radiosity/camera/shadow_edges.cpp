@@ -9,7 +9,7 @@
 
 #include <glm/vec2.hpp>
 
-#include <raycast/inline.hpp>
+#include <brep/inline.hpp>
 
 namespace radiosity {
 namespace detail {

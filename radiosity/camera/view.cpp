@@ -14,8 +14,9 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include <brep/inline.hpp>
+
 #include <raycast/box.hpp>
-#include <raycast/inline.hpp>
 #include <raycast/scene.hpp>
 
 #include <radiosity/scene/material.hpp>

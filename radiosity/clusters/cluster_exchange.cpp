@@ -10,9 +10,10 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
+#include <brep/inline.hpp>
+
 #include <raycast/bundle.hpp>
 #include <raycast/compiled.hpp>
-#include <raycast/inline.hpp>
 #include <raycast/scene.hpp>
 
 #include <radiosity/clusters/clusters.hpp>
@@ -23,6 +24,7 @@
 #include <radiosity/support/random.hpp>
 #include <radiosity/visibility/exposure.hpp>
 #include <radiosity/visibility/occlusion.hpp>
+#include <radiosity/visibility/segment_samples.hpp>
 #include <radiosity/visibility/visibility.hpp>
 
 namespace radiosity {
@@ -50,7 +52,7 @@ HALFLIGHT_INLINE ClusterExchange ClusterSampler::operator()(const ClusterEnd& p,
     std::array<double, 16> weights{};
     for (std::uint32_t i = 0; i < 16; ++i) {
       const Point x = draw(p, (i + random.uniform()) / 16.0, random);
-      const Point y = draw(q, ((i * 5u ^ shift) % 16u + random.uniform()) / 16.0, random);
+      const Point y = draw(q, (detail::opposite_cell(i, shift) + random.uniform()) / 16.0, random);
       const glm::dvec3 d = y.position - x.position;
       const double r2 = glm::dot(d, d);
       const double leaves = glm::dot(x.normal, d);
@@ -105,10 +107,9 @@ HALFLIGHT_INLINE ClusterSampler::Point ClusterSampler::draw(const ClusterEnd& en
     if (chosen == no_node) { return {}; }  // only by rounding
     i = chosen;
   }
-  const Patch& patch = scene_.patches[i];
-  const PatchEnd ground{&patch, nodes[i].object, exposure_ != nullptr ? exposure_->points(i) : nullptr, scene_.sheet(i)};
+  const PatchEnd ground = patch_end(scene_, exposure_, i);
   const auto cell = static_cast<std::uint32_t>(random.bits() & 15u);
-  return {draw_exposed(ground, cell, random), patch.normal, i == end.node ? 1.0 : 1.0 / per_shown, nodes[i].object, scene_.sheet(i)};
+  return {draw_exposed(ground, cell, random), ground.patch->normal, i == end.node ? 1.0 : 1.0 / per_shown, ground.object, ground.sheet};
 }
 
 HALFLIGHT_INLINE ClusterExchange evaluate_cluster_link(const ClusterSampler& sampler, const Hierarchy& hierarchy, Link& link,

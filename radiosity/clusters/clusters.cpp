@@ -14,10 +14,10 @@
 #include <glm/vec3.hpp>
 
 #include <brep/brep.hpp>
+#include <brep/inline.hpp>
 
 #include <raycast/box.hpp>
 #include <raycast/bvh.hpp>
-#include <raycast/inline.hpp>
 #include <raycast/transform.hpp>
 
 #include <radiosity/clusters/face_clusters.hpp>

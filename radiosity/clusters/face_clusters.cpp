@@ -18,9 +18,8 @@
 #include <brep/builder_input.hpp>
 #include <brep/circulators.hpp>
 #include <brep/handles.hpp>
+#include <brep/inline.hpp>
 #include <brep/union_find.hpp>
-
-#include <raycast/inline.hpp>
 
 #include <radiosity/hierarchy/hierarchy.hpp>
 #include <radiosity/hierarchy/surface.hpp>

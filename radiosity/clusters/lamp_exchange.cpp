@@ -13,8 +13,9 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
+#include <brep/inline.hpp>
+
 #include <raycast/bundle.hpp>
-#include <raycast/inline.hpp>
 #include <raycast/scene.hpp>
 
 #include <radiosity/geometry/direction_lattice.hpp>
@@ -23,7 +24,9 @@
 #include <radiosity/hierarchy/patch.hpp>
 #include <radiosity/support/draw.hpp>
 #include <radiosity/support/random.hpp>
+#include <radiosity/visibility/exposure.hpp>
 #include <radiosity/visibility/occlusion.hpp>
+#include <radiosity/visibility/segment_samples.hpp>
 #include <radiosity/visibility/visibility.hpp>
 
 namespace radiosity {
@@ -86,10 +89,6 @@ HALFLIGHT_INLINE std::span<const LampExchange::Point> LampExchange::points_of(st
   return std::span{points_}.subspan(first_[number], first_[number + 1] - first_[number]);
 }
 
-HALFLIGHT_INLINE PatchEnd LampExchange::end(std::uint32_t i) const {
-  return {&scene_.patches[i], scene_.hierarchy[i].object, exposure_ != nullptr ? exposure_->points(i) : nullptr, scene_.sheet(i)};
-}
-
 namespace detail {
 
 [[nodiscard]] HALFLIGHT_INLINE double point_kernel(const glm::dvec3& x, const glm::dvec3& n, const glm::dvec3& y, const glm::dvec3& m) {
@@ -148,7 +147,7 @@ HALFLIGHT_INLINE LampExchange::Result LampExchange::operator()(std::uint32_t lam
 HALFLIGHT_INLINE void LampExchange::see(Result& result, std::span<const Point> points, const std::vector<double>& until, std::uint32_t to,
                                         std::uint32_t rounds, Random random) const {
   const Patch& patch = scene_.patches[to];
-  const PatchEnd ground = end(to);
+  const PatchEnd ground = patch_end(scene_, exposure_, to);
   WeighedSegments first, further;
   std::uint32_t decisive = 0;
   std::uint32_t hint = raycast::no_shape;
@@ -160,8 +159,8 @@ HALFLIGHT_INLINE void LampExchange::see(Result& result, std::span<const Point> p
       const double at = (i + random.uniform()) / 16.0 * until.back();
       const std::size_t k = drawn_index(until, at);
       const std::uint32_t face = points[k].face;
-      const glm::dvec3 y = draw_exposed(end(face), static_cast<std::uint32_t>(random.bits() & 15u), random);
-      const glm::dvec3 x = draw_exposed(ground, (i * 5u ^ shift) % 16u, random);
+      const glm::dvec3 y = draw_exposed(patch_end(scene_, exposure_, face), static_cast<std::uint32_t>(random.bits() & 15u), random);
+      const glm::dvec3 x = draw_exposed(ground, detail::opposite_cell(i, shift), random);
       const double share = until[k] - (k > 0 ? until[k - 1] : 0.0);
       if (!(share > 0.0)) { continue; }
       weights[i] = detail::point_kernel(x, patch.normal, y, scene_.patches[face].normal) * points[k].area / share;

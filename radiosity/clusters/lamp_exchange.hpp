@@ -57,7 +57,6 @@ class LampExchange {
   void add_points(const std::vector<std::uint32_t>& faces);
   [[nodiscard]] double area(std::size_t i) const { return exposure_ != nullptr ? exposure_->area[i] : scene_.hierarchy[i].area; }
   [[nodiscard]] std::span<const Point> points_of(std::uint32_t lamp) const;
-  [[nodiscard]] PatchEnd end(std::uint32_t i) const;
   // The mean direction of the unoccluded light from the lamp to a patch, which must be lit by it.
   [[nodiscard]] glm::dvec3 way(std::uint32_t lamp, std::uint32_t patch) const;
   void see(Result& result, std::span<const Point> points, const std::vector<double>& until, std::uint32_t patch, std::uint32_t rounds,

@@ -19,9 +19,9 @@
 #include <brep/builder_input.hpp>
 #include <brep/circulators.hpp>
 #include <brep/handles.hpp>
+#include <brep/inline.hpp>
 
 #include <raycast/box.hpp>
-#include <raycast/inline.hpp>
 #include <raycast/object.hpp>
 #include <raycast/objects/mesh.hpp>
 #include <raycast/scene.hpp>
@@ -186,7 +186,7 @@ HALFLIGHT_INLINE void DirectLight::mark_behind(Lamp& lamp) const {
 
 HALFLIGHT_INLINE DirectLight::DirectLight(const raycast::Scene& objects, const std::vector<Surface>& surfaces,
                                           const std::vector<Color>& emission, const LampLimits& limits)
-    : objects_{&objects}, true_objects_{&objects}, lamp_of_(emission.size(), 0xffffffff), bodies_(objects.size()) {
+    : objects_{&objects}, true_objects_{&objects}, lamp_of_(emission.size(), brep::invalid_index), bodies_(objects.size()) {
   auto [candidates, total, dark] = sheets_of(surfaces, emission);
   set_tolerances(dark);
   if (limits.bodies && candidates.size() > limits.most) { candidates = join_alike(candidates, objects, limits.most); }

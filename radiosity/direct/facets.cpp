@@ -19,9 +19,9 @@
 #include <brep/builder_input.hpp>
 #include <brep/circulators.hpp>
 #include <brep/handles.hpp>
+#include <brep/inline.hpp>
 
 #include <raycast/box.hpp>
-#include <raycast/inline.hpp>
 #include <raycast/transform.hpp>
 
 #include <radiosity/direct/flat_parts.hpp>
@@ -50,7 +50,7 @@ class FacetCollector {
         open_.erase(other);
       } else {
         open_.insert_or_assign({numbers[i], numbers[next]}, facets_.edges.size());
-        facets_.edges.push_back({contour[i], contour[next], index, Facets::none});
+        facets_.edges.push_back({contour[i], contour[next], index, brep::invalid_index});
       }
     }
     facets_.facets.push_back({std::move(contour), normal, 0.0, length});
@@ -89,8 +89,8 @@ template <class Counts>
 
 }  // namespace detail
 
-HALFLIGHT_INLINE Facets facets_of(const Surface& surface, std::uint32_t sheet) {
-  return detail::facets_of(surface, [&](std::uint32_t s) { return sheet == Facets::none || s == sheet; });
+HALFLIGHT_INLINE Facets facets_of(const Surface& surface, std::optional<std::uint32_t> sheet) {
+  return detail::facets_of(surface, [&](std::uint32_t s) { return !sheet || s == *sheet; });
 }
 HALFLIGHT_INLINE Facets facets_of(const Surface& surface, std::span<const std::uint32_t> sheets) {
   return detail::facets_of(surface, [&](std::uint32_t s) { return std::binary_search(sheets.begin(), sheets.end(), s); });
@@ -120,7 +120,7 @@ HALFLIGHT_INLINE void append(Facets& facets, const Facets& more) {
   facets.facets.insert(facets.facets.end(), more.facets.begin(), more.facets.end());
   for (Facets::Edge edge : more.edges) {
     edge.left += first;
-    if (edge.right != Facets::none) { edge.right += first; }
+    if (edge.right != brep::invalid_index) { edge.right += first; }
     facets.edges.push_back(edge);
   }
   part.facets_end = size(facets.facets);
@@ -137,12 +137,12 @@ HALFLIGHT_INLINE void append(Facets& facets, const Facets& more) {
   facets.parts.push_back(part);
 }
 
-HALFLIGHT_INLINE Facets facets_of(const raycast::PlacedObject& object, double tolerance, std::uint32_t sheet) {
+HALFLIGHT_INLINE Facets facets_of(const raycast::PlacedObject& object, double tolerance, std::optional<std::uint32_t> sheet) {
   brep::Builder builder;
   object.approximate(tolerance, builder);
   detail::FacetCollector collector;
   for (std::uint32_t f = 0; f < builder.face_count(); ++f) {
-    if (builder.sheet(f) == brep::no_sheet || (sheet != Facets::none && builder.sheet(f) != sheet)) { continue; }
+    if (builder.sheet(f) == brep::no_sheet || (sheet && builder.sheet(f) != *sheet)) { continue; }
     const std::span<const std::uint32_t> corners = builder.corners(f);
     std::vector<FaceCorners> parts;
     append_flat_parts(builder, {corners.begin(), corners.end()}, parts);

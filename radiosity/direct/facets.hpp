@@ -13,12 +13,15 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
+
+#include <brep/handles.hpp>
 
 #include <raycast/transform.hpp>
 
@@ -35,10 +38,9 @@ struct Facets {
     double area = 0.0;
     [[nodiscard]] double height(const glm::dvec3& x) const { return glm::dot(normal, x) - offset; }
   };
-  static constexpr std::uint32_t none = 0xffffffff;
   struct Edge {
-    glm::dvec3 a{0.0}, b{0.0};                // in the direction in which the left facet's contour runs
-    std::uint32_t left = none, right = none;  // right: none at a border
+    glm::dvec3 a{0.0}, b{0.0};                                              // in the direction in which the left facet's contour runs
+    std::uint32_t left = brep::invalid_index, right = brep::invalid_index;  // right: invalid at a border
   };
   // One body: its range of facets and edges, and a bounding sphere and box.
   struct Part {
@@ -59,7 +61,7 @@ struct Facets {
 };
 
 // The facets of one sheet of a boundary, or (default) of all its faces that belong to a sheet.
-[[nodiscard]] Facets facets_of(const Surface& surface, std::uint32_t sheet = Facets::none);
+[[nodiscard]] Facets facets_of(const Surface& surface, std::optional<std::uint32_t> sheet = {});
 // The facets of these sheets, in ascending order.
 [[nodiscard]] Facets facets_of(const Surface& surface, std::span<const std::uint32_t> sheets);
 [[nodiscard]] double area_of(const Facets& facets);
@@ -69,7 +71,7 @@ struct Facets {
 // Adds all of `more` to `facets`, as one part.
 void append(Facets& facets, const Facets& more);
 // The facets of a curved object, within a tolerance (a length) of the true surface.
-[[nodiscard]] Facets facets_of(const raycast::PlacedObject& object, double tolerance, std::uint32_t sheet = Facets::none);
+[[nodiscard]] Facets facets_of(const raycast::PlacedObject& object, double tolerance, std::optional<std::uint32_t> sheet = {});
 
 // Unoccluded form factor from x with unit normal n to those facets of the part that face x. A facet faces x when x lies more than `slack`
 // above its plane. This excludes points on a two-sided sheet, which lie on the plane of its other side, where rounding alone could make
@@ -88,7 +90,7 @@ template <class Visit>
 void for_outline(std::span<const Facets::Edge> edges, const std::vector<char>& facing, const Visit& visit) {
   for (const Facets::Edge& edge : edges) {
     const bool left = facing[edge.left] != 0;
-    const bool right = edge.right != Facets::none && facing[edge.right] != 0;
+    const bool right = edge.right != brep::invalid_index && facing[edge.right] != 0;
     if (left == right) { continue; }
     if (left) {
       visit(edge.a, edge.b);

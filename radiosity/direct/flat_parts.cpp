@@ -9,10 +9,9 @@
 #include <glm/vec3.hpp>
 
 #include <brep/builder_input.hpp>
+#include <brep/inline.hpp>
 #include <brep/outline.hpp>
 #include <brep/polygon.hpp>
-
-#include <raycast/inline.hpp>
 
 namespace radiosity {
 

@@ -14,8 +14,8 @@
 
 #include <brep/circulators.hpp>
 #include <brep/handles.hpp>
+#include <brep/inline.hpp>
 
-#include <raycast/inline.hpp>
 #include <raycast/object.hpp>
 
 #include <radiosity/geometry/form_factor.hpp>

@@ -12,7 +12,8 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
-#include <raycast/inline.hpp>
+#include <brep/inline.hpp>
+
 #include <raycast/tolerances.hpp>
 
 #include <radiosity/direct/facets.hpp>

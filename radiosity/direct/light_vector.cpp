@@ -12,7 +12,8 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
-#include <raycast/inline.hpp>
+#include <brep/handles.hpp>
+#include <brep/inline.hpp>
 
 #include <radiosity/direct/facets.hpp>
 #include <radiosity/support/random.hpp>
@@ -22,14 +23,14 @@ namespace radiosity {
 HALFLIGHT_INLINE PossibleOutline::PossibleOutline(const Facets& facets, const Facets::Part& part, const PointRegion& region) {
   enum class Faced : unsigned char { by_all, by_none, by_some };
   std::vector<Faced> faced;
-  std::vector<std::uint32_t> number(part.facets_end - part.facets_begin, Facets::none);
+  std::vector<std::uint32_t> number(part.facets_end - part.facets_begin, brep::invalid_index);
   for (std::uint32_t f = part.facets_begin; f < part.facets_end; ++f) {
     const double height = facets.facets[f].height(region.centre);
     faced.push_back(height > region.radius ? Faced::by_all : height < -region.radius ? Faced::by_none : Faced::by_some);
   }
   const auto take = [&](std::uint32_t f) {
     std::uint32_t& own = number[f - part.facets_begin];
-    if (own == Facets::none) {
+    if (own == brep::invalid_index) {
       own = static_cast<std::uint32_t>(planes_.size());
       planes_.push_back({facets.facets[f].normal, facets.facets[f].offset});
       if (faced[f - part.facets_begin] == Faced::by_some) { largest_turning_ = std::max(largest_turning_, facets.facets[f].area); }
@@ -38,12 +39,12 @@ HALFLIGHT_INLINE PossibleOutline::PossibleOutline(const Facets& facets, const Fa
   };
   for (std::uint32_t e = part.edges_begin; e < part.edges_end; ++e) {
     const Facets::Edge& edge = facets.edges[e];
-    const bool border = edge.right == Facets::none;
+    const bool border = edge.right == brep::invalid_index;
     const Faced left = faced[edge.left - part.facets_begin];
     const Faced right = border ? Faced::by_none : faced[edge.right - part.facets_begin];
     if (left == right && left != Faced::by_some) { continue; }
     const std::uint32_t number_of_left = take(edge.left);
-    edges_.push_back({edge.a, edge.b, number_of_left, border ? Facets::none : take(edge.right)});
+    edges_.push_back({edge.a, edge.b, number_of_left, border ? brep::invalid_index : take(edge.right)});
   }
 }
 

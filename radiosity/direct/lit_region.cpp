@@ -12,8 +12,9 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
+#include <brep/inline.hpp>
+
 #include <raycast/box.hpp>
-#include <raycast/inline.hpp>
 #include <raycast/ray.hpp>
 #include <raycast/scene.hpp>
 #include <raycast/shaft.hpp>

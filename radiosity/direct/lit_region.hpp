@@ -29,6 +29,7 @@
 
 #include <glm/vec3.hpp>
 
+#include <raycast/compiled.hpp>
 #include <raycast/shaft.hpp>
 
 #include <radiosity/direct/direct_light.hpp>
@@ -109,7 +110,7 @@ class LitRegion {
     };
     std::vector<Outline> outlines;
     std::vector<std::optional<PartLight>> parts;  // by part of the lamp; set on first use
-    std::uint32_t hint = 0xffffffff;
+    std::uint32_t hint = raycast::no_shape;
     std::optional<Survey> survey;  // set on first use
   };
 

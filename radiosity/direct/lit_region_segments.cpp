@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <brep/inline.hpp>
+
 #include <radiosity/direct/lit_region.hpp>
 
 #include <algorithm>
@@ -15,7 +17,6 @@
 #include <glm/vec3.hpp>
 
 #include <raycast/bundle.hpp>
-#include <raycast/inline.hpp>
 #include <raycast/object.hpp>
 #include <raycast/scene.hpp>
 

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: MIT
+#include <brep/handles.hpp>
+#include <brep/inline.hpp>
+
 #include <radiosity/direct/lit_region.hpp>
 
 #include <algorithm>
@@ -12,7 +15,6 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
-#include <raycast/inline.hpp>
 #include <raycast/scene.hpp>
 #include <raycast/shaft.hpp>
 #include <raycast/tolerances.hpp>
@@ -58,7 +60,7 @@ HALFLIGHT_INLINE LitRegion::Reach::Outline LitRegion::outline_of(const DirectLig
   };
   for (const Facets::Edge& edge : convex.facets.edges) {
     const int left = side(edge.left);
-    if (left != 0 && edge.right != Facets::none && side(edge.right) == left) { continue; }
+    if (left != 0 && edge.right != brep::invalid_index && side(edge.right) == left) { continue; }
     outline.corners.push_back(edge.a);
     outline.corners.push_back(edge.b);
   }

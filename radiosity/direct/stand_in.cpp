@@ -13,9 +13,9 @@
 
 #include <brep/builder_input.hpp>
 #include <brep/handles.hpp>
+#include <brep/inline.hpp>
 #include <brep/union_find.hpp>
 
-#include <raycast/inline.hpp>
 #include <raycast/objects/mesh.hpp>
 #include <raycast/transform.hpp>
 

@@ -17,9 +17,9 @@
 #include <brep/builder_input.hpp>
 #include <brep/circulators.hpp>
 #include <brep/handles.hpp>
+#include <brep/inline.hpp>
 
 #include <raycast/box.hpp>
-#include <raycast/inline.hpp>
 #include <raycast/scene.hpp>
 #include <raycast/tolerances.hpp>
 #include <raycast/transform.hpp>
@@ -147,7 +147,7 @@ HALFLIGHT_INLINE void cut_out_covered(Facets& facets, std::uint32_t object, cons
   for (std::uint32_t f = 0; f < facets.facets.size(); ++f) {
     const Polygon& contour = facets.facets[f].contour;
     for (std::size_t i = 0; i < contour.size(); ++i) {
-      facets.edges.push_back({contour[i], contour[i + 1 < contour.size() ? i + 1 : 0], f, Facets::none});
+      facets.edges.push_back({contour[i], contour[i + 1 < contour.size() ? i + 1 : 0], f, brep::invalid_index});
     }
   }
 }

@@ -11,7 +11,8 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
-#include <raycast/inline.hpp>
+#include <brep/handles.hpp>
+#include <brep/inline.hpp>
 
 #include <radiosity/direct/facets.hpp>
 
@@ -70,7 +71,7 @@ HALFLIGHT_INLINE void add_line(const ReceivingFace& face, const glm::dvec3& a, c
 
 // Does the edge belong to the outline of its body as seen from x?
 [[nodiscard]] HALFLIGHT_INLINE bool on_outline(const Facets& body, const Facets::Edge& edge, const glm::dvec3& x, double tolerance) {
-  if (edge.right == Facets::none) { return true; }
+  if (edge.right == brep::invalid_index) { return true; }
   const double left = body.facets[edge.left].height(x);
   const double right = body.facets[edge.right].height(x);
   if (std::abs(left) <= tolerance && std::abs(right) <= tolerance) { return false; }  // an edge between parts of one facet, seen edge-on
@@ -88,7 +89,7 @@ HALFLIGHT_INLINE void add_critical_lines(const ReceivingFace& face, const Facets
   // The part of the lamp's outline above the face.
   std::vector<detail::Segment2> outline;
   for (const Facets::Edge& edge : lamp.edges) {
-    if (edge.right != Facets::none) { continue; }
+    if (edge.right != brep::invalid_index) { continue; }
     if (const auto part = detail::part_between(edge.a, edge.b, height, tolerance, any)) { outline.push_back(*part); }
   }
   // The parts of the blocker's edges between the planes of lamp and face.

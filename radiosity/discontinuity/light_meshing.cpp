@@ -15,9 +15,9 @@
 #include <brep/builder_input.hpp>
 #include <brep/circulators.hpp>
 #include <brep/handles.hpp>
+#include <brep/inline.hpp>
 #include <brep/split_plane.hpp>
 
-#include <raycast/inline.hpp>
 #include <raycast/scene.hpp>
 #include <raycast/shaft.hpp>
 #include <raycast/transform.hpp>

@@ -14,7 +14,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 
-#include <raycast/inline.hpp>
+#include <brep/inline.hpp>
 
 #include <radiosity/exchange/edge_pair.hpp>
 #include <radiosity/exchange/kernel_sums.hpp>

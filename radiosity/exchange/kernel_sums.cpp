@@ -5,7 +5,8 @@
 
 #include <glm/vec3.hpp>
 
-#include <raycast/inline.hpp>
+#include <brep/inline.hpp>
+
 #include <raycast/isa.hpp>
 
 #include <radiosity/hierarchy/bend.hpp>

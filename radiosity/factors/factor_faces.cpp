@@ -10,7 +10,7 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
-#include <raycast/inline.hpp>
+#include <brep/inline.hpp>
 
 #include <radiosity/exchange/exchange.hpp>
 #include <radiosity/factors/factor_integral.hpp>

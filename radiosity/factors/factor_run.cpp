@@ -12,8 +12,9 @@
 #include <glm/vec3.hpp>
 #include <glm/vector_relational.hpp>
 
+#include <brep/inline.hpp>
+
 #include <raycast/box.hpp>
-#include <raycast/inline.hpp>
 #include <raycast/ray.hpp>
 #include <raycast/scene.hpp>
 #include <raycast/spans.hpp>

@@ -14,8 +14,7 @@
 #include <brep/builder_input.hpp>
 #include <brep/circulators.hpp>
 #include <brep/handles.hpp>
-
-#include <raycast/inline.hpp>
+#include <brep/inline.hpp>
 
 #include <radiosity/factors/factor_integral.hpp>
 #include <radiosity/factors/factor_rays.hpp>

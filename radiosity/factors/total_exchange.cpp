@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include <raycast/inline.hpp>
+#include <brep/inline.hpp>
 
 #include <radiosity/factors/factor_integral.hpp>
 #include <radiosity/factors/factors.hpp>

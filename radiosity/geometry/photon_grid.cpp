@@ -12,7 +12,7 @@
 
 #include <glm/vec3.hpp>
 
-#include <raycast/inline.hpp>
+#include <brep/inline.hpp>
 
 #include <radiosity/support/random.hpp>
 

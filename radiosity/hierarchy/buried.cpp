@@ -9,9 +9,10 @@
 #include <glm/vec3.hpp>
 #include <glm/vector_relational.hpp>
 
+#include <brep/inline.hpp>
+
 #include <raycast/box.hpp>
 #include <raycast/bvh.hpp>
-#include <raycast/inline.hpp>
 #include <raycast/ray.hpp>
 #include <raycast/spans.hpp>
 #include <raycast/transform.hpp>

@@ -10,10 +10,10 @@
 #include <brep/brep.hpp>
 #include <brep/circulators.hpp>
 #include <brep/handles.hpp>
+#include <brep/inline.hpp>
 
 #include <raycast/box.hpp>
 #include <raycast/bvh.hpp>
-#include <raycast/inline.hpp>
 #include <raycast/transform.hpp>
 
 #include <radiosity/hierarchy/surface.hpp>

@@ -13,12 +13,12 @@
 
 #include <brep/circulators.hpp>
 #include <brep/handles.hpp>
+#include <brep/inline.hpp>
 #include <brep/split_objects.hpp>
 #include <brep/split_plane.hpp>
 
 #include <raycast/box.hpp>
 #include <raycast/bvh.hpp>
-#include <raycast/inline.hpp>
 
 #include <radiosity/hierarchy/surface.hpp>
 #include <radiosity/hierarchy/wall_lines.hpp>

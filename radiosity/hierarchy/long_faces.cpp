@@ -13,12 +13,12 @@
 #include <brep/circulators.hpp>
 #include <brep/geometry.hpp>
 #include <brep/handles.hpp>
+#include <brep/inline.hpp>
 #include <brep/split.hpp>
 #include <brep/split_objects.hpp>
 #include <brep/split_plane.hpp>
 
 #include <raycast/box.hpp>
-#include <raycast/inline.hpp>
 #include <raycast/object.hpp>
 #include <raycast/transform.hpp>
 

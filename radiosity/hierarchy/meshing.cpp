@@ -11,11 +11,11 @@
 #include <brep/builder_input.hpp>
 #include <brep/circulators.hpp>
 #include <brep/handles.hpp>
+#include <brep/inline.hpp>
 #include <brep/refine.hpp>
 #include <brep/ring.hpp>
 #include <brep/small_list.hpp>
 
-#include <raycast/inline.hpp>
 #include <raycast/object.hpp>
 #include <raycast/transform.hpp>
 

@@ -14,7 +14,7 @@
 #include <glm/matrix.hpp>
 #include <glm/vec3.hpp>
 
-#include <raycast/inline.hpp>
+#include <brep/inline.hpp>
 
 #include <radiosity/geometry/form_factor.hpp>
 

@@ -20,13 +20,13 @@
 #include <brep/circulators.hpp>
 #include <brep/geometry.hpp>
 #include <brep/handles.hpp>
+#include <brep/inline.hpp>
 #include <brep/refine.hpp>
 #include <brep/result.hpp>
 #include <brep/small_list.hpp>
 #include <brep/split.hpp>
 
 #include <raycast/box.hpp>
-#include <raycast/inline.hpp>
 #include <raycast/object.hpp>
 #include <raycast/transform.hpp>
 

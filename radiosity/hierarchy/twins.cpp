@@ -15,9 +15,9 @@
 #include <brep/builder_input.hpp>
 #include <brep/circulators.hpp>
 #include <brep/handles.hpp>
+#include <brep/inline.hpp>
 
 #include <raycast/box.hpp>
-#include <raycast/inline.hpp>
 #include <raycast/object.hpp>
 #include <raycast/transform.hpp>
 

@@ -14,13 +14,13 @@
 #include <brep/builder_input.hpp>
 #include <brep/circulators.hpp>
 #include <brep/handles.hpp>
+#include <brep/inline.hpp>
 #include <brep/split.hpp>
 #include <brep/split_objects.hpp>
 #include <brep/split_plane.hpp>
 
 #include <raycast/box.hpp>
 #include <raycast/bvh.hpp>
-#include <raycast/inline.hpp>
 #include <raycast/transform.hpp>
 
 #include <radiosity/hierarchy/lamp_frames.hpp>

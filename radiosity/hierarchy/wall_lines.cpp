@@ -15,10 +15,10 @@
 
 #include <brep/circulators.hpp>
 #include <brep/handles.hpp>
+#include <brep/inline.hpp>
 #include <brep/split_objects.hpp>
 
 #include <raycast/box.hpp>
-#include <raycast/inline.hpp>
 #include <raycast/transform.hpp>
 
 #include <radiosity/geometry/form_factor.hpp>

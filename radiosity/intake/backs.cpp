@@ -13,9 +13,8 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
+#include <brep/inline.hpp>
 #include <brep/polygon.hpp>
-
-#include <raycast/inline.hpp>
 
 #include <radiosity/intake/clean.hpp>
 

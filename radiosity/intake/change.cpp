@@ -9,7 +9,7 @@
 #include <string_view>
 #include <utility>
 
-#include <raycast/inline.hpp>
+#include <brep/inline.hpp>
 
 namespace radiosity {
 namespace intake::detail {

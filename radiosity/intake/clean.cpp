@@ -15,9 +15,9 @@
 #include <glm/vec3.hpp>
 
 #include <brep/ears.hpp>
+#include <brep/inline.hpp>
 #include <brep/polygon.hpp>
 
-#include <raycast/inline.hpp>
 #include <raycast/planar.hpp>
 #include <raycast/tolerances.hpp>
 

@@ -15,9 +15,9 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
+#include <brep/inline.hpp>
 #include <brep/polygon.hpp>
 
-#include <raycast/inline.hpp>
 #include <raycast/planar.hpp>
 
 #include <radiosity/intake/beside.hpp>

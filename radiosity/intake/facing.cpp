@@ -13,11 +13,11 @@
 
 #include <glm/geometric.hpp>
 
+#include <brep/inline.hpp>
 #include <brep/polygon.hpp>
 
 #include <raycast/box.hpp>
 #include <raycast/bvh.hpp>
-#include <raycast/inline.hpp>
 #include <raycast/line_query.hpp>
 #include <raycast/planar.hpp>
 #include <raycast/ray.hpp>

@@ -5,7 +5,7 @@
 #include <span>
 #include <utility>
 
-#include <raycast/inline.hpp>
+#include <brep/inline.hpp>
 
 #include <radiosity/intake/backs.hpp>
 #include <radiosity/intake/clean.hpp>

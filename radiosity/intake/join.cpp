@@ -9,9 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include <brep/inline.hpp>
 #include <brep/union_find.hpp>
-
-#include <raycast/inline.hpp>
 
 #include <radiosity/intake/t_joints.hpp>
 

@@ -16,11 +16,11 @@
 #include <glm/vector_relational.hpp>
 
 #include <brep/ears.hpp>
+#include <brep/inline.hpp>
 #include <brep/polygon.hpp>
 
 #include <raycast/box.hpp>
 #include <raycast/bvh.hpp>
-#include <raycast/inline.hpp>
 #include <raycast/planar.hpp>
 
 #include <radiosity/geometry/form_factor.hpp>

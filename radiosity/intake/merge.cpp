@@ -16,9 +16,9 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
+#include <brep/inline.hpp>
 #include <brep/polygon.hpp>
 
-#include <raycast/inline.hpp>
 #include <raycast/planar.hpp>
 #include <raycast/tolerances.hpp>
 

@@ -13,10 +13,10 @@
 
 #include <glm/vec3.hpp>
 
+#include <brep/inline.hpp>
 #include <brep/polygon.hpp>
 
 #include <raycast/box.hpp>
-#include <raycast/inline.hpp>
 #include <raycast/object.hpp>
 #include <raycast/objects/mesh.hpp>
 #include <raycast/objects/polygon.hpp>

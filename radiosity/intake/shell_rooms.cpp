@@ -11,10 +11,10 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
+#include <brep/inline.hpp>
 #include <brep/polygon.hpp>
 
 #include <raycast/box.hpp>
-#include <raycast/inline.hpp>
 
 #include <radiosity/intake/shells.hpp>
 

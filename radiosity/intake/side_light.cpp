@@ -14,10 +14,10 @@
 #include <glm/vec3.hpp>
 
 #include <brep/ears.hpp>
+#include <brep/inline.hpp>
 #include <brep/polygon.hpp>
 
 #include <raycast/box.hpp>
-#include <raycast/inline.hpp>
 #include <raycast/line_query.hpp>
 #include <raycast/ray.hpp>
 

@@ -15,10 +15,9 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
+#include <brep/inline.hpp>
 #include <brep/polygon.hpp>
 #include <brep/union_find.hpp>
-
-#include <raycast/inline.hpp>
 
 namespace radiosity::intake {
 namespace detail {

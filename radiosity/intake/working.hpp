@@ -13,12 +13,14 @@
 
 #include <glm/vec3.hpp>
 
+#include <brep/handles.hpp>
+
 #include <radiosity/intake/change.hpp>
 #include <radiosity/intake/polygons.hpp>
 
 namespace radiosity::intake {
 
-inline constexpr std::uint32_t none = 0xffffffff;
+inline constexpr std::uint32_t none = brep::invalid_index;
 
 // An input polygon that a face represents.
 struct Source {

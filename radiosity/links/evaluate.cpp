@@ -13,7 +13,8 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
-#include <raycast/inline.hpp>
+#include <brep/inline.hpp>
+
 #include <raycast/shaft.hpp>
 
 #include <radiosity/clusters/cluster_exchange.hpp>

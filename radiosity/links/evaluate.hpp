@@ -61,8 +61,8 @@ struct EvaluateResult {
   RayCount rays;
   std::uint64_t proven_clear = 0;  // links for which no segment was cast
   std::uint64_t blocked = 0;       // links left out because no light arrives
-  PairSample unseen;               // sample of the blocked links without proof; not of measured links
-  DoubtSum doubt;                  // of the links left out, and of all links unless measured links store theirs
+  PairSample unseen;               // sample of the links left out by make_links() because all their segments were blocked, without proof
+  DoubtSum doubt;                  // of the links left out; from make_links() also of those kept (measured links store their own)
   bool cancelled = false;
 
   // Adds what was found for further links.
@@ -168,11 +168,9 @@ class LinkEvaluator {
   [[nodiscard]] LinkVariation variation_of_cluster_link(const Link& link, const ClusterExchange& seen, const LinkVariation& before) const;
   // The errors of faces and links are independent: by position, view, the lattice of directions, and sampling.
   [[nodiscard]] double doubt_of_cluster_link(const Link& link, const LinkVariation& variation) const;
-  [[nodiscard]] PatchEnd end(std::uint32_t i) const {
-    return {&scene_.patches[i], scene_.hierarchy[i].object, exposure_->points(i), scene_.sheet(i)};
+  [[nodiscard]] PatchPair ends(const Link& link) const {
+    return {patch_end(scene_, exposure_, link.p), patch_end(scene_, exposure_, link.q)};
   }
-
-  [[nodiscard]] PatchPair ends(const Link& link) const { return {end(link.p), end(link.q)}; }
 
   SceneView scene_;
   const Exposure* exposure_;

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include <raycast/inline.hpp>
+#include <brep/inline.hpp>
 
 #include <radiosity/hierarchy/links.hpp>
 

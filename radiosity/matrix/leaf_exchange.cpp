@@ -6,7 +6,8 @@
 #include <cstdint>
 #include <vector>
 
-#include <raycast/inline.hpp>
+#include <brep/inline.hpp>
+
 #include <raycast/shaft.hpp>
 #include <raycast/transform.hpp>
 

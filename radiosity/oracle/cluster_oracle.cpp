@@ -9,7 +9,7 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
-#include <raycast/inline.hpp>
+#include <brep/inline.hpp>
 
 #include <radiosity/clusters/clusters.hpp>
 #include <radiosity/geometry/direction_lattice.hpp>

@@ -13,7 +13,8 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
-#include <raycast/inline.hpp>
+#include <brep/inline.hpp>
+
 #include <raycast/shaft.hpp>
 
 #include <radiosity/clusters/cluster_exchange.hpp>
@@ -27,6 +28,7 @@
 #include <radiosity/scene/material.hpp>
 #include <radiosity/scene/scene.hpp>
 #include <radiosity/support/random.hpp>
+#include <radiosity/visibility/exposure.hpp>
 #include <radiosity/visibility/occlusion.hpp>
 #include <radiosity/visibility/scene_view.hpp>
 #include <radiosity/visibility/visibility.hpp>
@@ -231,10 +233,10 @@ HALFLIGHT_INLINE std::uint32_t LightOracle::wants_split(const Question& question
   const detail::FactorRange factor = detail::is_near_and_long(from, to, scene_.patches[lamp])
                                          ? detail::factors_to_outline(to, scene_.patches[receiver], from, scene_.patches[lamp])
                                          : detail::factors_to_disk(to, scene_.patches[receiver], from);
-  const auto end_at = [&](std::uint32_t i) { return PatchEnd{&scene_.patches[i], nodes[i].object, nullptr, scene_.sheet(i)}; };
   const bool split = detail::varies(weight * factor.low, weight * factor.high, epsilon_, tolerance, rays, [&](std::uint64_t round) {
-    const VisibilityEstimate seen = visibility(scene_, *question.between, {end_at(receiver), end_at(lamp)}, 1,
-                                               Random{seed_, (std::uint64_t{p} << 32) | q, 0x736861646f77ull + round});
+    const VisibilityEstimate seen =
+        visibility(scene_, *question.between, {patch_end(scene_, nullptr, receiver), patch_end(scene_, nullptr, lamp)}, 1,
+                   Random{seed_, (std::uint64_t{p} << 32) | q, 0x736861646f77ull + round});
     return std::pair{seen.fraction, seen.rays};
   });
   return split ? receiver : no_node;

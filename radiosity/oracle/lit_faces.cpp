@@ -7,7 +7,8 @@
 #include <span>
 #include <vector>
 
-#include <raycast/inline.hpp>
+#include <brep/inline.hpp>
+
 #include <raycast/object.hpp>
 #include <raycast/ray.hpp>
 #include <raycast/scene.hpp>

@@ -16,8 +16,9 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
+#include <brep/inline.hpp>
+
 #include <raycast/bundle.hpp>
-#include <raycast/inline.hpp>
 #include <raycast/object.hpp>
 #include <raycast/ray.hpp>
 #include <raycast/scene.hpp>

@@ -13,7 +13,7 @@
 #include <glm/common.hpp>
 #include <glm/vec3.hpp>
 
-#include <raycast/inline.hpp>
+#include <brep/inline.hpp>
 
 #include <radiosity/picture/final_gather.hpp>
 #include <radiosity/picture/gathered_point.hpp>

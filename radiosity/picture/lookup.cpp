@@ -15,10 +15,11 @@
 #include <glm/vec3.hpp>
 #include <glm/vector_relational.hpp>
 
+#include <brep/inline.hpp>
+
 #include <raycast/box.hpp>
 #include <raycast/bundle.hpp>
 #include <raycast/bvh.hpp>
-#include <raycast/inline.hpp>
 #include <raycast/object.hpp>
 #include <raycast/point_query.hpp>
 #include <raycast/ray.hpp>

@@ -11,7 +11,8 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
-#include <raycast/inline.hpp>
+#include <brep/inline.hpp>
+
 #include <raycast/object.hpp>
 
 #include <radiosity/direct/lit_region.hpp>

@@ -16,10 +16,10 @@
 
 #include <brep/circulators.hpp>
 #include <brep/handles.hpp>
+#include <brep/inline.hpp>
 #include <brep/refine.hpp>
 #include <brep/t_vertices.hpp>
 
-#include <raycast/inline.hpp>
 #include <raycast/transform.hpp>
 
 #include <radiosity/direct/lit_region.hpp>

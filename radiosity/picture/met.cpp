@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <radiosity/picture/met.hpp>
 
+#include <brep/inline.hpp>
+
 #include <raycast/bundle.hpp>
-#include <raycast/inline.hpp>
 #include <raycast/object.hpp>
 #include <raycast/ray.hpp>
 #include <raycast/scene.hpp>

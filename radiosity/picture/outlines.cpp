@@ -16,8 +16,8 @@
 #include <brep/builder_input.hpp>
 #include <brep/circulators.hpp>
 #include <brep/handles.hpp>
+#include <brep/inline.hpp>
 
-#include <raycast/inline.hpp>
 #include <raycast/transform.hpp>
 
 #include <radiosity/geometry/form_factor.hpp>

@@ -8,7 +8,8 @@
 
 #include <glm/vec3.hpp>
 
-#include <raycast/inline.hpp>
+#include <brep/inline.hpp>
+
 #include <raycast/object.hpp>
 
 #include <radiosity/hierarchy/hierarchy.hpp>

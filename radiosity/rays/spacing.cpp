@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include <raycast/inline.hpp>
+#include <brep/inline.hpp>
 
 #include <radiosity/exchange/exchange.hpp>
 #include <radiosity/hierarchy/hierarchy.hpp>

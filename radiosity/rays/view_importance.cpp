@@ -10,8 +10,9 @@
 
 #include <glm/vec3.hpp>
 
+#include <brep/inline.hpp>
+
 #include <raycast/bundle.hpp>
-#include <raycast/inline.hpp>
 #include <raycast/scene.hpp>
 
 #include <radiosity/hierarchy/hierarchy.hpp>

@@ -8,7 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include <raycast/inline.hpp>
+#include <brep/inline.hpp>
+
 #include <raycast/shaft.hpp>
 
 #include <radiosity/clusters/clusters.hpp>

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <limits>
 
-#include <raycast/inline.hpp>
+#include <brep/inline.hpp>
 
 namespace radiosity {
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <utility>
 
-#include <raycast/inline.hpp>
+#include <brep/inline.hpp>
 
 #include <radiosity/refinement/bf_choice.hpp>
 #include <radiosity/refinement/bf_generation.hpp>

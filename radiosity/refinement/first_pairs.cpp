@@ -4,7 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include <raycast/inline.hpp>
+#include <brep/inline.hpp>
+
 #include <raycast/transform.hpp>
 
 #include <radiosity/hierarchy/hierarchy.hpp>

@@ -11,8 +11,7 @@
 
 #include <brep/circulators.hpp>
 #include <brep/handles.hpp>
-
-#include <raycast/inline.hpp>
+#include <brep/inline.hpp>
 
 #include <radiosity/clusters/clusters.hpp>
 #include <radiosity/hierarchy/hierarchy.hpp>

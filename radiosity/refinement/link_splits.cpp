@@ -7,7 +7,8 @@
 #include <cstdint>
 #include <vector>
 
-#include <raycast/inline.hpp>
+#include <brep/inline.hpp>
+
 #include <raycast/shaft.hpp>
 
 #include <radiosity/exchange/doubt.hpp>

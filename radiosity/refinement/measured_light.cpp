@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include <raycast/inline.hpp>
+#include <brep/inline.hpp>
 
 #include <radiosity/discontinuity/light_meshing.hpp>
 #include <radiosity/hierarchy/hierarchy.hpp>

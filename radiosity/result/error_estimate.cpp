@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <optional>
 
-#include <raycast/inline.hpp>
+#include <brep/inline.hpp>
 
 namespace radiosity {
 

@@ -2,8 +2,7 @@
 #include <radiosity/result/own_unit.hpp>
 
 #include <brep/finite.hpp>
-
-#include <raycast/inline.hpp>
+#include <brep/inline.hpp>
 
 #include <radiosity/result/audit.hpp>
 #include <radiosity/result/comparison.hpp>

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include <raycast/inline.hpp>
+#include <brep/inline.hpp>
 
 #include <radiosity/result/audit.hpp>
 #include <radiosity/support/memory.hpp>

@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-#include <raycast/inline.hpp>
+#include <brep/inline.hpp>
 
 #include <radiosity/audit/aimed_paths.hpp>
 #include <radiosity/audit/audit_effort.hpp>

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include <brep/handles.hpp>
+#include <brep/inline.hpp>
 
 #include <raycast/box.hpp>
-#include <raycast/inline.hpp>
 #include <raycast/scene.hpp>
 
 #include <radiosity/audit/warnings.hpp>
@@ -47,6 +47,34 @@ namespace detail {
   return count;
 }
 
+// Chooses which light goes by links and which by stored rays. Accordingly puts clusters above the input faces: above lamps only, if these
+// are many; above all faces, if these are many and no rays are cast. `uncut_lamps`: emitting faces before long ones were cut.
+HALFLIGHT_INLINE void choose_ways_of_light(Run& run, std::uint64_t uncut_lamps) {
+  const Options& options = run.options;
+  DiscreteScene& scene = run.scene;
+  std::uint64_t faces = 0;
+  std::uint64_t lamps = 0;
+  for (std::size_t i = 0; i < scene.hierarchy.size(); ++i) {
+    if (!is_input_face(scene.hierarchy, i)) { continue; }
+    ++faces;
+    lamps += is_black(scene.emission[scene.hierarchy[i].surface]) ? 0 : 1;
+  }
+  if (run.needs_links()) { run.rays = choose_rays(faces, lamps, uncut_lamps, options); }
+  if (run.rays.many_lamps) {
+    scene.lamps = choose_lamps(scene);
+    if (std::find(scene.lamps.begin(), scene.lamps.end(), true) != scene.lamps.end()) {
+      std::vector<double> exitance(scene.lamps.size(), 0.0);
+      for (std::size_t s = 0; s < exitance.size(); ++s) { exitance[s] = scene.lamps[s] ? brightest(scene.emission[s]) : 0.0; }
+      scene.hierarchy = make_lamp_clusters(scene.surfaces, scene.hierarchy, exitance);
+    }
+  }
+  run.clusters = run.rays.cast ? ClusterChoice{false, "between surfaces that do not shine light goes by stored rays"}
+                               : choose_clusters(scene.hierarchy.size(), options);
+  if (run.clusters.build) { scene.hierarchy = make_clusters(scene.surfaces, scene.hierarchy); }
+  run.solution.audit.clusters = static_cast<std::uint64_t>(
+      std::count_if(scene.hierarchy.begin(), scene.hierarchy.end(), [](const Node& n) { return n.is_cluster(); }));
+}
+
 }  // namespace detail
 
 namespace stage {
@@ -77,27 +105,7 @@ HALFLIGHT_INLINE std::optional<Failure> build(detail::Run& run) {
   const std::uint64_t uncut_lamps = detail::faces_that_shine(boundaries, scene.emission);
   cut_long_faces(boundaries, options.min_area);
   scene.hierarchy = make_roots(boundaries, scene.budget.arrays);
-  std::uint64_t faces = 0;
-  std::uint64_t lamps = 0;
-  for (std::size_t i = 0; i < scene.hierarchy.size(); ++i) {
-    if (!is_input_face(scene.hierarchy, i)) { continue; }
-    ++faces;
-    lamps += is_black(scene.emission[scene.hierarchy[i].surface]) ? 0 : 1;
-  }
-  if (run.needs_links()) { run.rays = choose_rays(faces, lamps, uncut_lamps, options); }
-  if (run.rays.many_lamps) {
-    scene.lamps = choose_lamps(scene);
-    if (std::find(scene.lamps.begin(), scene.lamps.end(), true) != scene.lamps.end()) {
-      std::vector<double> exitance(scene.lamps.size(), 0.0);
-      for (std::size_t s = 0; s < exitance.size(); ++s) { exitance[s] = scene.lamps[s] ? brightest(scene.emission[s]) : 0.0; }
-      scene.hierarchy = make_lamp_clusters(boundaries, scene.hierarchy, exitance);
-    }
-  }
-  run.clusters = run.rays.cast ? ClusterChoice{false, "between surfaces that do not shine light goes by stored rays"}
-                               : choose_clusters(scene.hierarchy.size(), options);
-  if (run.clusters.build) { scene.hierarchy = make_clusters(boundaries, scene.hierarchy); }
-  audit.clusters = static_cast<std::uint64_t>(
-      std::count_if(scene.hierarchy.begin(), scene.hierarchy.end(), [](const Node& n) { return n.is_cluster(); }));
+  detail::choose_ways_of_light(run, uncut_lamps);
   if (scene.plan.lossless) {
     return Failure{Failure::Kind::invalid_scene,
                    {"the scene is closed and nothing in it absorbs light in some channel in which it emits: "

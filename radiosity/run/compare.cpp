@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <optional>
 
-#include <raycast/inline.hpp>
+#include <brep/inline.hpp>
 
 #include <radiosity/matrix/dense.hpp>
 #include <radiosity/matrix/leaf_exchange.hpp>

@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include <raycast/inline.hpp>
+#include <brep/inline.hpp>
 
 #include <radiosity/audit/closed_parts.hpp>
 #include <radiosity/audit/warnings.hpp>

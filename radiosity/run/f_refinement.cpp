@@ -8,7 +8,7 @@
 #include <string>
 #include <utility>
 
-#include <raycast/inline.hpp>
+#include <brep/inline.hpp>
 
 #include <radiosity/audit/reflected_light.hpp>
 #include <radiosity/audit/view_paths.hpp>

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include <raycast/inline.hpp>
+#include <brep/inline.hpp>
 
 #include <radiosity/links/evaluate.hpp>
 #include <radiosity/rays/ray_links.hpp>

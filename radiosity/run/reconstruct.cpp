@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include <raycast/inline.hpp>
+#include <brep/inline.hpp>
 
 #include <radiosity/picture/reconstruct.hpp>
 #include <radiosity/refinement/discrete_scene.hpp>

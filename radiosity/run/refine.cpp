@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include <raycast/inline.hpp>
+#include <brep/inline.hpp>
 
 #include <radiosity/geometry/direction_lattice.hpp>
 #include <radiosity/refinement/bf_refine.hpp>

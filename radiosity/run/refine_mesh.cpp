@@ -10,7 +10,7 @@
 #include <optional>
 #include <utility>
 
-#include <raycast/inline.hpp>
+#include <brep/inline.hpp>
 
 #include <radiosity/discontinuity/light_meshing.hpp>
 #include <radiosity/hierarchy/meshing.hpp>

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include <raycast/inline.hpp>
+#include <brep/inline.hpp>
 
 #include <radiosity/matrix/dense.hpp>
 #include <radiosity/picture/reconstruct.hpp>

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include <raycast/inline.hpp>
+#include <brep/inline.hpp>
 
 #include <radiosity/audit/summary.hpp>
 #include <radiosity/audit/warnings.hpp>

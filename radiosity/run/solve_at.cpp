@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include <raycast/inline.hpp>
+#include <brep/inline.hpp>
 
 #include <radiosity/result/audit.hpp>
 #include <radiosity/result/out_of_memory.hpp>

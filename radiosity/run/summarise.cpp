@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <optional>
 
-#include <raycast/inline.hpp>
+#include <brep/inline.hpp>
 
 #include <radiosity/audit/summary.hpp>
 #include <radiosity/hierarchy/hierarchy.hpp>

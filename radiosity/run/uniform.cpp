@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include <raycast/inline.hpp>
+#include <brep/inline.hpp>
 
 #include <radiosity/hierarchy/hierarchy.hpp>
 #include <radiosity/hierarchy/polygons.hpp>

@@ -12,8 +12,9 @@
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 
+#include <brep/inline.hpp>
+
 #include <raycast/box.hpp>
-#include <raycast/inline.hpp>
 #include <raycast/scene.hpp>
 #include <raycast/transform.hpp>
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include <raycast/inline.hpp>
+#include <brep/inline.hpp>
 
 namespace radiosity {
 

@@ -6,7 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include <raycast/inline.hpp>
+#include <brep/inline.hpp>
+
 #include <raycast/object.hpp>
 #include <raycast/transform.hpp>
 

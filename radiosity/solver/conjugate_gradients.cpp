@@ -8,9 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include <brep/inline.hpp>
 #include <brep/union_find.hpp>
-
-#include <raycast/inline.hpp>
 
 #include <radiosity/hierarchy/hierarchy.hpp>
 #include <radiosity/hierarchy/links.hpp>

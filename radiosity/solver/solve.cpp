@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include <raycast/inline.hpp>
+#include <brep/inline.hpp>
 
 #include <radiosity/hierarchy/hierarchy.hpp>
 #include <radiosity/scene/material.hpp>

@@ -14,7 +14,7 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
-#include <raycast/inline.hpp>
+#include <brep/inline.hpp>
 
 #include <radiosity/geometry/direction_lattice.hpp>
 #include <radiosity/hierarchy/hierarchy.hpp>

@@ -9,7 +9,7 @@
 
 #include <sys/resource.h>
 
-#include <raycast/inline.hpp>
+#include <brep/inline.hpp>
 
 namespace radiosity {
 

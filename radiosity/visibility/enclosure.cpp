@@ -18,11 +18,11 @@
 #include <brep/circulators.hpp>
 #include <brep/geometry.hpp>
 #include <brep/handles.hpp>
+#include <brep/inline.hpp>
 #include <brep/union_find.hpp>
 
 #include <raycast/box.hpp>
 #include <raycast/bvh.hpp>
-#include <raycast/inline.hpp>
 #include <raycast/object.hpp>
 #include <raycast/point_query.hpp>
 

@@ -11,10 +11,10 @@
 #include <glm/vector_relational.hpp>
 
 #include <brep/geometry.hpp>
+#include <brep/inline.hpp>
 
 #include <raycast/box.hpp>
 #include <raycast/bvh.hpp>
-#include <raycast/inline.hpp>
 #include <raycast/scene.hpp>
 #include <raycast/transform.hpp>
 
@@ -172,6 +172,10 @@ class ExposureMeasurement {
   std::uint64_t seed_;
   Neighbourhood neighbourhood_;
 };
+
+HALFLIGHT_INLINE PatchEnd patch_end(const SceneView& scene, const Exposure* exposure, std::uint32_t i) {
+  return {&scene.patches[i], scene.hierarchy[i].object, exposure != nullptr ? exposure->points(i) : nullptr, scene.sheet(i)};
+}
 
 HALFLIGHT_INLINE void extend(Exposure& exposure, const SceneView& scene, unsigned threads, std::uint64_t seed) {
   const std::size_t first_new = exposure.area.size(), nodes = scene.hierarchy.size();

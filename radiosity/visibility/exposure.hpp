@@ -35,6 +35,9 @@ struct Exposure {
   }
 };
 
+// One end of a pair of patches. Without `exposure` all of it counts as exposed.
+[[nodiscard]] PatchEnd patch_end(const SceneView& scene, const Exposure* exposure, std::uint32_t i);
+
 // Measures those leaves that are new since the last call, and sums up the areas. Leaves near other objects are measured with 16
 // stratified points, and 256 if these disagree: the standard error of the area is at most 1/32 of a leaf at the border of the hidden
 // part. Requires the patches of all nodes.

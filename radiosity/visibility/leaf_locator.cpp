@@ -13,9 +13,10 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
+#include <brep/inline.hpp>
+
 #include <raycast/box.hpp>
 #include <raycast/bvh.hpp>
-#include <raycast/inline.hpp>
 #include <raycast/object.hpp>
 #include <raycast/point_query.hpp>
 #include <raycast/tolerances.hpp>

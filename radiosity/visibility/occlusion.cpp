@@ -9,7 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include <raycast/inline.hpp>
+#include <brep/inline.hpp>
+
 #include <raycast/scene.hpp>
 #include <raycast/shaft.hpp>
 

@@ -9,8 +9,9 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
+#include <brep/inline.hpp>
+
 #include <raycast/box.hpp>
-#include <raycast/inline.hpp>
 
 #include <radiosity/hierarchy/patch.hpp>
 

@@ -8,7 +8,8 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
-#include <raycast/inline.hpp>
+#include <brep/inline.hpp>
+
 #include <raycast/isa.hpp>
 
 #ifdef HALFLIGHT_X86

@@ -14,11 +14,11 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
+#include <brep/inline.hpp>
 #include <brep/small_list.hpp>
 
 #include <raycast/bundle.hpp>
 #include <raycast/compiled.hpp>
-#include <raycast/inline.hpp>
 #include <raycast/scene.hpp>
 #include <raycast/shaft.hpp>
 

@@ -9,10 +9,10 @@
 #include <glm/vec3.hpp>
 
 #include <brep/builder_input.hpp>
+#include <brep/inline.hpp>
 
 #include <raycast/box.hpp>
 #include <raycast/compile.hpp>
-#include <raycast/inline.hpp>
 #include <raycast/object.hpp>
 #include <raycast/planar.hpp>
 #include <raycast/ray.hpp>

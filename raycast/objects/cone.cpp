@@ -15,10 +15,10 @@
 #include <glm/vec3.hpp>
 
 #include <brep/builder_input.hpp>
+#include <brep/inline.hpp>
 
 #include <raycast/box.hpp>
 #include <raycast/circle.hpp>
-#include <raycast/inline.hpp>
 #include <raycast/object.hpp>
 #include <raycast/ray.hpp>
 #include <raycast/spans.hpp>
@@ -56,16 +56,7 @@ HALFLIGHT_INLINE void Cone::spans(const Segment& line, Spans& out) const {
   }
   span.in.t += shift;
   span.out.t += shift;
-  if (dz == 0.0) {
-    if (!(fz >= 0.0 && fz <= height_)) { return; }
-  } else {
-    const Crossing bottom{shift - fz / dz, 1}, top{shift + (height_ - fz) / dz, pointed() ? 0u : 2u};
-    const Crossing& in = dz > 0.0 ? bottom : top;
-    const Crossing& leave = dz > 0.0 ? top : bottom;
-    if (in.t > span.in.t) { span.in = in; }
-    if (leave.t < span.out.t) { span.out = leave; }
-  }
-  out.push(span);  // drops an empty span
+  if (clip_between_caps(span, fz, dz, shift, height_, pointed() ? 0u : 2u)) { out.push(span); }  // drops an empty span
 }
 
 HALFLIGHT_INLINE SurfacePoint Cone::project(std::uint32_t sheet, const glm::dvec3& p) const {

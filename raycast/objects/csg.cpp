@@ -17,9 +17,9 @@
 #include <brep/circulators.hpp>
 #include <brep/geometry.hpp>
 #include <brep/handles.hpp>
+#include <brep/inline.hpp>
 
 #include <raycast/box.hpp>
-#include <raycast/inline.hpp>
 #include <raycast/object.hpp>
 #include <raycast/objects/csg_boundary.hpp>
 #include <raycast/objects/csg_leaf.hpp>

@@ -28,11 +28,11 @@
 #include <brep/csg/solid.hpp>
 #include <brep/csg/to_brep.hpp>
 #include <brep/handles.hpp>
+#include <brep/inline.hpp>
 #include <brep/polygon.hpp>
 #include <brep/result.hpp>
 
 #include <raycast/box.hpp>
-#include <raycast/inline.hpp>
 #include <raycast/object.hpp>
 #include <raycast/objects/csg_faces.hpp>
 #include <raycast/objects/csg_leaf.hpp>

@@ -15,13 +15,13 @@
 #include <brep/circulators.hpp>
 #include <brep/geometry.hpp>
 #include <brep/handles.hpp>
+#include <brep/inline.hpp>
 #include <brep/polygon.hpp>
 #include <brep/result.hpp>
 #include <brep/small_list.hpp>
 #include <brep/split.hpp>
 #include <brep/unchecked.hpp>
 
-#include <raycast/inline.hpp>
 #include <raycast/objects/csg_leaf.hpp>
 #include <raycast/objects/csg_tree.hpp>
 #include <raycast/tolerances.hpp>

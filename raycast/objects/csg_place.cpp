@@ -13,11 +13,11 @@
 #include <brep/brep.hpp>
 #include <brep/circulators.hpp>
 #include <brep/handles.hpp>
+#include <brep/inline.hpp>
 #include <brep/outline.hpp>
 #include <brep/polygon.hpp>
 #include <brep/unchecked.hpp>
 
-#include <raycast/inline.hpp>
 #include <raycast/object.hpp>
 #include <raycast/objects/csg_leaf.hpp>
 #include <raycast/objects/csg_tree.hpp>

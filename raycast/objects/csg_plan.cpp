@@ -8,8 +8,9 @@
 
 #include <glm/vec3.hpp>
 
+#include <brep/inline.hpp>
+
 #include <raycast/box.hpp>
-#include <raycast/inline.hpp>
 #include <raycast/object.hpp>
 #include <raycast/objects/box.hpp>
 #include <raycast/objects/csg_region.hpp>

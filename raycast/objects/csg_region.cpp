@@ -12,8 +12,9 @@
 #include <glm/matrix.hpp>
 #include <glm/vec3.hpp>
 
+#include <brep/inline.hpp>
+
 #include <raycast/box.hpp>
-#include <raycast/inline.hpp>
 #include <raycast/object.hpp>
 #include <raycast/objects/csg_tree.hpp>
 #include <raycast/ray.hpp>

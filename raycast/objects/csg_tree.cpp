@@ -14,8 +14,10 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
+#include <brep/handles.hpp>
+#include <brep/inline.hpp>
+
 #include <raycast/box.hpp>
-#include <raycast/inline.hpp>
 #include <raycast/object.hpp>
 #include <raycast/ray.hpp>
 #include <raycast/spans.hpp>
@@ -28,7 +30,7 @@ inline constexpr std::size_t max_csg_depth = 64;
 
 HALFLIGHT_INLINE Made<CsgTree> CsgTree::make(const CsgNode& root) {
   const std::shared_ptr<CsgTree> tree(new CsgTree);
-  if (std::string refusal = tree->take(root, {}, none, true, false, 0); !refusal.empty()) { return refusal; }
+  if (std::string refusal = tree->take(root, {}, brep::invalid_index, true, false, 0); !refusal.empty()) { return refusal; }
   tree->bounds_ = tree->bounds_of(0);
   for (const Leaf& leaf : tree->leaves_) { tree->film_ = std::max(tree->film_, tol_film * leaf.solid.bounds().diameter()); }
   return std::shared_ptr<const CsgTree>(tree);
@@ -60,7 +62,7 @@ HALFLIGHT_INLINE CsgTree CsgTree::cut(const std::vector<Share>& shares, const st
   }
   const auto root = static_cast<std::uint32_t>(result.nodes_.size());
   result.nodes_.push_back(result.nodes_[0]);
-  result.nodes_[0] = {CsgOperation::intersect, {root}, none, true, none};
+  result.nodes_[0] = {CsgOperation::intersect, {root}, brep::invalid_index, true, brep::invalid_index};
   append_box(0);
   return result;
 }
@@ -199,7 +201,7 @@ HALFLIGHT_INLINE std::string CsgTree::take(const CsgNode& given, const Placement
   if (given.placement.inside) { return who + " is turned inside out: operands are solids, turn what is made of them"; }
   const Placement placement = compose(outer, given.placement);
   const auto index = static_cast<std::uint32_t>(nodes_.size());
-  nodes_.push_back({given.operation, {}, parent, first, none});
+  nodes_.push_back({given.operation, {}, parent, first, brep::invalid_index});
   if (!given.solid) {
     if (given.parts.empty()) { return who + " has no parts"; }
     for (std::size_t i = 0; i < given.parts.size(); ++i) {

@@ -87,7 +87,6 @@ class CsgTree {
   [[nodiscard]] bool contains(const glm::dvec3& p) const;
 
  private:
-  static constexpr std::uint32_t none = 0xffffffff;
   struct Event {
     Crossing at;  // sheet: of the leaf
     std::uint32_t leaf;

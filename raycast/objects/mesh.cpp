@@ -19,13 +19,13 @@
 #include <brep/brep.hpp>
 #include <brep/builder.hpp>
 #include <brep/builder_input.hpp>
+#include <brep/inline.hpp>
 #include <brep/union_find.hpp>
 
 #include <raycast/box.hpp>
 #include <raycast/bvh.hpp>
 #include <raycast/compile.hpp>
 #include <raycast/faces_apart.hpp>
-#include <raycast/inline.hpp>
 #include <raycast/line_query.hpp>
 #include <raycast/object.hpp>
 #include <raycast/planar.hpp>

@@ -14,9 +14,9 @@
 #include <glm/vec3.hpp>
 
 #include <brep/builder_input.hpp>
+#include <brep/inline.hpp>
 
 #include <raycast/box.hpp>
-#include <raycast/inline.hpp>
 #include <raycast/object.hpp>
 #include <raycast/ray.hpp>
 #include <raycast/spans.hpp>

@@ -72,9 +72,9 @@ TEST_CASE("explain: watching changes nothing, and the recorded numbers are those
     std::size_t links = 0;
     for (const apps::explain::Pair& pair : r.pairs) {
       const bool roots = r.nodes[pair.p].parent == radiosity::no_node && r.nodes[pair.q].parent == radiosity::no_node;
-      REQUIRE((pair.parent == apps::explain::none) == roots);
+      REQUIRE(pair.parent.has_value() != roots);
       if (!roots) {
-        const apps::explain::Pair& above = r.pairs[pair.parent];
+        const apps::explain::Pair& above = r.pairs[*pair.parent];
         CHECK(above.generation + 1 == pair.generation);
         CHECK((above.decision == Decision::split_p || above.decision == Decision::split_q));
       }

@@ -13,6 +13,8 @@
 #include <glm/trigonometric.hpp>
 #include <glm/vec3.hpp>
 
+#include <brep/handles.hpp>
+
 #include <radiosity/direct/facets.hpp>
 #include <radiosity/discontinuity/critical_lines.hpp>
 #include <radiosity/geometry/form_factor.hpp>
@@ -36,7 +38,7 @@ Facets sheet(const Polygon& contour) {
   Facets facets;
   facets.facets.push_back({contour, n, glm::dot(n, contour[0]), 1.0});
   for (std::size_t i = 0; i < contour.size(); ++i) {
-    facets.edges.push_back({contour[i], contour[(i + 1) % contour.size()], 0, Facets::none});
+    facets.edges.push_back({contour[i], contour[(i + 1) % contour.size()], 0, brep::invalid_index});
   }
   return facets;
 }

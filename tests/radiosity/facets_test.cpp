@@ -8,6 +8,8 @@
 
 #include <glm/geometric.hpp>
 
+#include <brep/handles.hpp>
+
 #include <raycast/objects/csg.hpp>
 #include <raycast/objects/csg_tree.hpp>
 #include <raycast/objects/cylinder.hpp>
@@ -93,7 +95,7 @@ TEST_CASE("the facets of an intersection of round solids are planar, each edge h
     }
     CHECK(out_of_plane < 1e-9);
     CHECK(before < 2.0);
-    for (const radiosity::Facets::Edge& edge : facets.edges) { REQUIRE(edge.right != radiosity::Facets::none); }
+    for (const radiosity::Facets::Edge& edge : facets.edges) { REQUIRE(edge.right != brep::invalid_index); }
   }
   CHECK(solids > 30);
 }
