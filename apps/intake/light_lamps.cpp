@@ -34,6 +34,7 @@ namespace apps {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180.0;
+constexpr double suns_away = 1e3;  // in diameters of the scene: rays diverge by a sixteenth of the width of the sun from its middle to its rim
 
 // A closed prism with a recess of the same number of sides, which opens towards `axis`.
 std::shared_ptr<const raycast::Object> cup(const glm::dvec3& bottom, const glm::dvec3& axis, double rim, double depth, double wall) {
@@ -207,7 +208,7 @@ class LampMaker {
     }
   }
 
-  [[nodiscard]] double distance_of_suns() const { return 100.0 * std::max(lit_.diameter(), 1e-30); }
+  [[nodiscard]] double distance_of_suns() const { return suns_away * std::max(lit_.diameter(), 1e-30); }
 
   // What shines all over, reaches beyond all else, and is large or far away: a dome over the scene, or a panel before a window. Not a lamp,
   // in a room or above a floor.

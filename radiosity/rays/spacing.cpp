@@ -8,7 +8,12 @@
 #include <utility>
 #include <vector>
 
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
 #include <brep/inline.hpp>
+
+#include <raycast/box.hpp>
 
 #include <radiosity/exchange/exchange.hpp>
 #include <radiosity/hierarchy/hierarchy.hpp>
@@ -41,15 +46,47 @@ namespace detail {
   return emission;
 }
 
+// Areas by which errors and brightness are weighted: the exposed ones. But what reflects nothing has no error, and may be very large and
+// far away, as suns and skies are: it counts as if drawn towards the middle of all that reflects, onto the sphere around that. So it
+// counts alike at any distance.
+class CountedAreas {
+ public:
+  explicit CountedAreas(const DiscreteScene& scene) : scene_{scene} {
+    raycast::Box reflecting;
+    for (std::uint32_t i = 0; i < scene.hierarchy.size(); ++i) {
+      const Node& node = scene.hierarchy[i];
+      if (!is_input_face(scene.hierarchy, i) || !(scene.exposure.area[i] > 0.0) || is_black(scene.reflectance[node.surface])) { continue; }
+      reflecting.extend(node.centre - node.radius);
+      reflecting.extend(node.centre + node.radius);
+    }
+    if (reflecting.empty()) { return; }
+    middle_ = reflecting.centre();
+    radius_ = 0.5 * reflecting.diameter();
+  }
+  [[nodiscard]] double operator()(std::uint32_t i) const {
+    const Node& node = scene_.hierarchy[i];
+    if (!is_black(scene_.reflectance[node.surface])) { return scene_.exposure.area[i]; }
+    const double distance = glm::length(node.centre - middle_);
+    return scene_.exposure.area[i] * (distance > radius_ ? radius_ / distance * (radius_ / distance) : 1.0);
+  }
+
+ private:
+  const DiscreteScene& scene_;
+  glm::dvec3 middle_{0.0};
+  double radius_ = 0.0;
+};
+
 // Brightness of each node without interreflection: the reflected direct light of the lamps, plus the node's own emission if it is no
 // lamp; in the brightest channel. Lamps count as dark.
 struct Brightness {
   std::vector<double> of;
-  // RMS over the exposed leaves of the reflected light of lamps, and of other emitters as if their light were constant over the scene.
+  // RMS over the leaves, by counted area, of the reflected light of lamps, and of other emitters as if their light were constant over the
+  // scene.
   double reflected = 0.0;
   double mean = 0.0;  // mean of the same
 };
-[[nodiscard]] HALFLIGHT_INLINE Brightness brightness_without_lamps(const DiscreteScene& scene, const Links& of_lamps) {
+[[nodiscard]] HALFLIGHT_INLINE Brightness brightness_without_lamps(const DiscreteScene& scene, const Links& of_lamps,
+                                                                   const CountedAreas& counted) {
   const Hierarchy& hierarchy = scene.hierarchy;
   const std::vector<Color> of_clusters = emission_of_clusters(scene);
   std::vector<Color> irradiance(hierarchy.size(), Color{0.0});
@@ -64,15 +101,15 @@ struct Brightness {
   Color glow{0.0};  // mean over all surfaces that are no lamps
   double area = 0.0;
   const auto counts = [&](std::size_t i) { return hierarchy[i].leaf() && scene.exposure.area[i] > 0.0; };
-  for (std::size_t i = 0; i < hierarchy.size(); ++i) {
+  for (std::uint32_t i = 0; i < hierarchy.size(); ++i) {
     if (!counts(i)) { continue; }
-    area += scene.exposure.area[i];
-    if (!scene.lamps[hierarchy[i].surface]) { glow += scene.exposure.area[i] * scene.emission[hierarchy[i].surface]; }
+    area += counted(i);
+    if (!scene.lamps[hierarchy[i].surface]) { glow += counted(i) * scene.emission[hierarchy[i].surface]; }
   }
   if (!(area > 0.0)) { return {std::vector<double>(hierarchy.size(), 0.0)}; }
   glow /= area;
   Brightness brightness{std::vector<double>(hierarchy.size(), 0.0)};
-  for (std::size_t i = 0; i < hierarchy.size(); ++i) {  // parents before children
+  for (std::uint32_t i = 0; i < hierarchy.size(); ++i) {  // parents before children
     const std::uint32_t parent = hierarchy[i].parent;
     if (hierarchy[i].is_cluster()) { continue; }
     if (parent != no_node && !hierarchy[parent].is_cluster()) { irradiance[i] += irradiance[parent]; }
@@ -81,8 +118,8 @@ struct Brightness {
     brightness.of[i] = brightest(scene.emission[surface] + scene.reflectance[surface] * irradiance[i]);
     const double reflected = brightest(scene.reflectance[surface] * (irradiance[i] + glow));
     if (!counts(i)) { continue; }
-    brightness.reflected += scene.exposure.area[i] * reflected * reflected;
-    brightness.mean += scene.exposure.area[i] * reflected / area;
+    brightness.reflected += counted(i) * reflected * reflected;
+    brightness.mean += counted(i) * reflected / area;
   }
   brightness.reflected = std::sqrt(brightness.reflected / area);
   return brightness;
@@ -94,14 +131,15 @@ class Spacing {
   Spacing(DiscreteScene& scene, const Links& of_lamps, Importance& importance, double tolerance, double min_area)
       : scene_{scene}, importance_{importance}, links_{of_lamps.size()}, tolerance_{tolerance} {
     importance.extend(scene.hierarchy, scene.patches);
-    Brightness brightness = brightness_without_lamps(scene, of_lamps);
+    const CountedAreas counted{scene};
+    Brightness brightness = brightness_without_lamps(scene, of_lamps, counted);
     brightness_ = std::move(brightness.of);
     root_mean_square_ = brightness.reflected;
     evenness_ = dark() ? 1.0 : std::min(1.0, 4.0 * brightness.mean / root_mean_square_);
     rest_ = 0.5 * evenness_;
     for (std::uint32_t i = 0; i < scene.hierarchy.size(); ++i) {
       if (!is_input_face(scene.hierarchy, i)) { continue; }
-      area_ += scene.exposure.area[i];
+      area_ += counted(i);
       if (!scene.lamps[scene.hierarchy[i].surface]) { open_.push_back(i); }
     }
     least_area_ = min_area * area_;

@@ -99,3 +99,50 @@ TEST_CASE("under a sun that looks the same the picture and all radiosities are t
     }
   }
 }
+
+namespace {
+
+// A room with furniture and a window, through which a disk shines that is half a degree wide.
+std::string room_in_the_sun(const glm::dvec2& window, const glm::dvec3& to_sun, double distance) {
+  const glm::dvec3 sun = glm::dvec3{2.0, 2.0, 1.5} + distance * to_sun;
+  std::ostringstream out;
+  out.precision(17);
+  out << "material wall reflectance 0.7\nmaterial sun reflectance 0 emission 1e7\n"
+      << "difference house material wall {\n box block from -0.2 -0.2 -0.2 to 4.2 4.2 3.2\n box room from 0 0 0 to 4 4 3\n"
+      << " box window from " << window.x << " -1 " << window.y << " to " << window.x + 1.5 << " 0.5 " << window.y + 1.2 << "\n}\n"
+      << "box chest material wall from 0.5 3 0 to 1.5 3.6 0.8\nbox table material wall from 2 2.2 0.6 to 3.5 3 0.7\n"
+      << "disk sun material sun center " << sun.x << ' ' << sun.y << ' ' << sun.z << " radius " << 0.00436 * distance << " normal "
+      << -to_sun.x << ' ' << -to_sun.y << ' ' << -to_sun.z << '\n';
+  return out.str();
+}
+
+}  // namespace
+
+// Errors are relative to the light on what is lit. If they were relative to the area of all, a sun would take the rays away: its area grows
+// with the square of its distance.
+TEST_CASE("under a sun that looks the same as many rays are stored, on leaves as fine, however far it is") {
+  const auto seed = std::random_device{}();
+  INFO("seed " << seed);
+  std::mt19937_64 random{seed};
+  const auto between = [&](double a, double b) { return std::uniform_real_distribution<double>{a, b}(random); };
+  for (int round = 0; round < 6; ++round) {
+    const glm::dvec2 window{between(0.3, 2.0), between(0.8, 1.5)};
+    const glm::dvec3 to_sun = glm::normalize(glm::dvec3{between(-0.5, 0.5), -1.0, between(0.3, 1.0)});
+    const auto audit = [&](double distance) {
+      const apps::SceneResult parsed = apps::parse_scene(room_in_the_sun(window, to_sun, distance));
+      REQUIRE(parsed.file);
+      const radiosity::Outcome outcome = radiosity::solve(
+          parsed.file->scene, {.epsilon = 0.01, .min_area = 2e-4, .indirect = radiosity::Indirect::rays, .audit_points = 0});
+      REQUIRE(outcome.solution);
+      return outcome.solution->audit;
+    };
+    const double distance = std::pow(10.0, between(4.5, 7.0));
+    const radiosity::Audit near = audit(1e3), far = audit(distance);  // from the nearer one rays diverge by a third of a degree
+    CAPTURE(round, window.x, window.y, to_sun.x, to_sun.z, distance, near.leaves, far.leaves);
+    const auto alike = [](std::uint64_t a, std::uint64_t b) {
+      return a <= 1.3 * static_cast<double>(b) && b <= 1.3 * static_cast<double>(a);
+    };
+    CHECK(alike(near.stored_rays, far.stored_rays));
+    CHECK(alike(near.leaves, far.leaves));
+  }
+}

@@ -16,6 +16,8 @@
 #include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
 
+#include <raycast/box.hpp>
+
 #include <radiosity/radiosity.hpp>
 #include <radiosity/result/outcome.hpp>
 #include <radiosity/scene/options.hpp>
@@ -188,6 +190,29 @@ TEST_CASE("a directional light: everywhere the floor gets E cos t, from a sun ha
         const glm::dvec3 p = dice.on_floor();
         CAPTURE(round, light.direction.x, light.direction.y, p.x, p.y);
         CHECK(floor.irradiance(p) == test::Approx(light.intensity * -light.direction.z).epsilon(0.02));
+      }
+    }
+  }
+}
+
+TEST_CASE("a directional light comes from the same direction everywhere, to a fifteenth of the sun's width, and as strong to 2e-3") {
+  Dice dice;
+  INFO("seed " << dice.seed);
+  constexpr double width = 0.5 * std::numbers::pi / 180.0;
+  for (int round = 0; round < 20; ++round) {
+    Light light;
+    light.type = "directional";
+    light.direction = dice.downwards(0.95);
+    for (const apps::SceneFile& file : in_all_formats(light)) {
+      REQUIRE(file.suns.size() == 1);
+      const raycast::Box sun = file.scene.objects[file.suns.front()].shape->bounds();
+      const glm::dvec3 direction = glm::normalize(light.direction);
+      for (int k = 0; k < 20; ++k) {
+        const glm::dvec3 to_sun = sun.centre() - dice.on_floor();
+        CAPTURE(round, light.direction.x, light.direction.y);
+        CHECK(glm::length(glm::normalize(to_sun) + direction) < width / 15.0);
+        const glm::dvec3 from_middle = sun.centre() - glm::dvec3{10.0, -10.0, 0.0};
+        CHECK(glm::dot(to_sun, to_sun) == test::Approx(glm::dot(from_middle, from_middle)).epsilon(2e-3));
       }
     }
   }
