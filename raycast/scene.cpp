@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-
 // Implements the law of scene.hpp, and the compilation of objects.
 
 #include <raycast/scene.hpp>

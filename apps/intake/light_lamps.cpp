@@ -34,7 +34,8 @@ namespace apps {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180.0;
-constexpr double suns_away = 1e3;  // in diameters of the scene: rays diverge by a sixteenth of the width of the sun from its middle to its rim
+// In diameters of the scene. From its middle to its rim rays diverge by a sixteenth of the sun's width.
+constexpr double suns_away = 1e3;
 
 // A closed prism with a recess of the same number of sides, which opens towards `axis`.
 std::shared_ptr<const raycast::Object> cup(const glm::dvec3& bottom, const glm::dvec3& axis, double rim, double depth, double wall) {
