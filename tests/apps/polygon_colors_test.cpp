@@ -176,7 +176,7 @@ TEST_CASE("of a picture that glows in few places what is dark does not shine, an
     }
     REQUIRE(read);
     // All but the noise on black, whose mean is below half of its largest, and the rounding of colours to 255 levels.
-    const double rounding = lit.size() * 0.6 / 255.0 * 2.4 * std::pow(brightest, 1.4 / 2.4) / (n * n);
+    const double rounding = static_cast<double>(lit.size()) * 0.6 / 255.0 * 2.4 * std::pow(brightest, 1.4 / 2.4) / (n * n);
     CHECK(std::abs(light - read->mean().x) < 0.5 * linear({3, 3, 3}).x + rounding);
   }
 }
