@@ -87,12 +87,14 @@ HALFLIGHT_INLINE std::vector<double> balance(const SymmetricOperator& apply, con
   // The best scale so far. If the system is nearly singular, a Newton step may lead away from the goal.
   double nearest = std::numeric_limits<double>::infinity(), start = nearest;
   std::vector<double> nearest_scale = matrix.scale;
-  int idle = 0;  // consecutive rounds that came hardly nearer, as where no scale meets the goal
-  for (bool plain = true; !matrix.exhausted() && idle < 3; plain = false) {
+  // Rounds in a row that came hardly nearer, as where no scale meets the goal. Those that are far away do not count: the next few lead
+  // back, and often nearer than before, as in halls thousands of times as wide as high.
+  int idle = 0;
+  for (bool plain = true; !matrix.exhausted() && idle < 5; plain = false) {
     matrix(ones, rows);
     const double off = detail::distance(rows, t);
     if (plain) { start = off; }
-    idle = off < 0.9 * nearest ? 0 : idle + 1;
+    if (off < 10.0 * nearest) { idle = off < 0.9 * nearest ? 0 : idle + 1; }
     if (off < nearest) {
       nearest = off;
       nearest_scale = matrix.scale;

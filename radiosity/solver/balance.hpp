@@ -26,7 +26,7 @@ struct Balance {
 };
 
 // Returns the diagonal of D, with 1 in rows with t = 0 or without entries. If no D is within the limits, returns the best one found until
-// three rounds have come no nearer, or with 400 products with S, which is never worse than D = 1.
+// five rounds, but for those that are far away, have come no nearer, or with 400 products with S, which is never worse than D = 1.
 [[nodiscard]] std::vector<double> balance(const SymmetricOperator& apply, const std::vector<double>& t, const Balance& goal);
 
 }  // namespace radiosity
