@@ -42,7 +42,10 @@ void AddedLight::look_for_light() {
   const bool replaced = !eye_chosen_ && dark.size() == file_.cameras.size();
   std::optional<radiosity::Camera> better;
   if (replaced && studio_view_ && views.lit_share(*studio_view_) >= LightViews::tol_dark) { better = studio_view_; }
-  if (auto inside = views.inside(); !better && inside && inside->lit >= LightViews::tol_dark) { better = std::move(inside->camera); }
+  if (!better) {
+    auto inside = views.inside();
+    if (inside && inside->lit >= LightViews::tol_dark) { better = std::move(inside->camera); }
+  }
   std::string advice;
   if (better && !eye_chosen_) {
     advice = replaced

@@ -18,8 +18,8 @@ namespace apps {
 // Spot: a ball of radius r, deep in a black cup. A ray from its centre, of the angle t from the axis, passes the rim of the cup, of radius
 // a and h before the centre, at the distance a cos t - h sin t. All of the ball is seen where that is at least r, and nothing where it is
 // below -r. So a, h and r are chosen that the light is full in the inner cone of the file, and none outside of the outer.
-// Sun: a disk half a degree wide, a thousand diameters of the scene away, so that its rays are parallel within a sixteenth of that. Farther
-// away, rounding would make rays slower: it is relative to the distance of the sun.
+// Sun: a disk half a degree wide, a thousand diameters of the scene away, so that its rays are parallel within a sixteenth of that. At ten
+// thousand, rooms lit through windows took 15 to 40 % longer.
 //
 // A relative intensity of 1 gives 100 W/m2 at half the scene's size, and everywhere if it is a sun's.
 void add_light_lamps(SceneFile& file, const std::vector<ModelLight>& lights);

@@ -131,9 +131,35 @@ Picture::Sums Picture::along_row(std::size_t row, double x) const {
   return sum;
 }
 
+namespace {
+
+using Triangle = std::array<glm::dvec2, 3>;  // in pixels
+
+double area_of(const Triangle& t) {
+  const glm::dvec2 ab = t[1] - t[0], ac = t[2] - t[0];
+  return 0.5 * std::abs(ab.x * ac.y - ab.y * ac.x);
+}
+
+// For a triangle whose corners lie on a line, as on a strip of colours: one of about the same points that is a hundredth of a pixel wide.
+Triangle widened(Triangle t) {
+  const auto side = [&](std::size_t opposite) { return t[(opposite + 2) % 3] - t[(opposite + 1) % 3]; };
+  std::size_t moved = 0;
+  for (std::size_t i = 1; i < 3; ++i) {
+    if (glm::length(side(i)) > glm::length(side(moved))) { moved = i; }
+  }
+  const glm::dvec2 along = side(moved);
+  (std::abs(along.x) > std::abs(along.y) ? t[moved].y : t[moved].x) += 0.01;
+  return t;
+}
+
+}  // namespace
+
 Picture::Part Picture::on_triangle(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c) const {
   const glm::dvec2 size(width_, height_);
-  const std::array<glm::dvec2, 3> corners{a * size, b * size, c * size};
+  constexpr double rounding = 1e-6;  // of the sums of a row, in pixels: coordinates are floats
+  Triangle corners{a * size, b * size, c * size};
+  if (area_of(corners) <= rounding) { corners = widened(corners); }
+  const double area = area_of(corners);
   const double top = std::min({corners[0].y, corners[1].y, corners[2].y}), bottom = std::max({corners[0].y, corners[1].y, corners[2].y});
   constexpr double most_repeats = 16.0, far = 1e9;
   if (!(bottom - top <= most_repeats * height_)) { return whole_; }
@@ -142,24 +168,28 @@ Picture::Part Picture::on_triangle(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c) con
   }
   const auto row_of = [&](double y) { return static_cast<std::size_t>(y - std::floor(y / height_) * height_) % height_; };
   Sums sum;
-  for (double y = std::floor(top); y < bottom; y += 1.0) {
-    const double from = std::max(y, top), to = std::min(y + 1.0, bottom), middle = 0.5 * (from + to);
-    double left = far, right = -far;  // where the sides of the triangle cross the middle
+  const auto add_strip = [&](double y, double height) {
+    double left = far, right = -far;  // where the sides of the triangle cross it
     for (std::size_t i = 0; i < 3; ++i) {
       const glm::dvec2 &p = corners[i], &q = corners[(i + 1) % 3];
-      if ((p.y <= middle) == (q.y <= middle)) { continue; }
-      const double x = p.x + (middle - p.y) / (q.y - p.y) * (q.x - p.x);
+      if ((p.y <= y) == (q.y <= y)) { continue; }
+      const double x = p.x + (y - p.y) / (q.y - p.y) * (q.x - p.x);
       left = std::min(left, x);
       right = std::max(right, x);
     }
-    if (!(left < right)) { continue; }
-    sum.add(along_row(row_of(y), right), to - from);
-    sum.add(along_row(row_of(y), left), from - to);
+    if (!(left < right)) { return; }
+    sum.add(along_row(row_of(y), right), height);
+    sum.add(along_row(row_of(y), left), -height);
+  };
+  // More than pixels from left to right, because a thin triangle may cross many of them in a row.
+  const auto [left_end, right_end] = std::minmax({corners[0].x, corners[1].x, corners[2].x});
+  const double least_strips = std::clamp(4.0 * (right_end - left_end), 64.0, 4096.0);
+  for (double row = std::floor(top); row < bottom; row += 1.0) {
+    const double from = std::max(row, top), height = std::min(row + 1.0, bottom) - from;
+    const double strips = std::ceil(least_strips * height / (bottom - top));
+    for (double i = 0.0; i < strips; i += 1.0) { add_strip(from + (i + 0.5) / strips * height, height / strips); }
   }
-  const double area = 0.5 * std::abs((corners[1].x - corners[0].x) * (corners[2].y - corners[0].y) -
-                                     (corners[1].y - corners[0].y) * (corners[2].x - corners[0].x));
-  constexpr double rounding = 1e-6;  // of the sums of a row, in pixels: coordinates are floats
-  if (area <= rounding) {            // as in a palette, where all corners lie at one colour
+  if (area <= rounding) {  // as in a palette, where all corners lie at one colour
     const glm::dvec2 middle = (corners[0] + corners[1] + corners[2]) / 3.0;
     sum = pixel(row_of(middle.y) * width_ + static_cast<std::size_t>(middle.x - std::floor(middle.x / width_) * width_) % width_);
   }
