@@ -35,9 +35,8 @@ class Picture {
     bool dark = false;      // no pixel has more than a thousandth of the brightest one of the picture, as black stored as JPEG
   };
   // The part on a triangle with these texture coordinates: (0, 0) is the start of the first row, (1, 1) the end of the last row; the
-  // picture is repeated beyond. The triangle is cut into strips along the rows of pixels, at least 64, and each counts with the pixels along
-  // its middle. The whole picture, if it is transparent there, or repeated more than 16 times from top to
-  // bottom.
+  // picture is repeated beyond. The triangle is cut into strips along the rows of pixels, at least 64, and each counts with the pixels
+  // along its middle. The whole picture, if it is transparent there, or repeated more than 16 times from top to bottom.
   [[nodiscard]] Part on_triangle(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c) const;
 
  private:
