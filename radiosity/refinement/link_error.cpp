@@ -273,11 +273,12 @@ HALFLIGHT_INLINE ErrorEstimation sampled_estimate(const DiscreteScene& scene, co
 }
 
 HALFLIGHT_INLINE std::string estimate_doubt(const DiscreteScene& scene, Transport& transport, const std::vector<Color>& radiosity,
-                                            double unseen, bool closed) {
+                                            double estimate, double unseen, bool closed) {
   const Hierarchy& hierarchy = scene.hierarchy;
-  constexpr double most_unseen = 0.5;
+  constexpr double most_estimate = 0.5, most_unseen = 0.5;
   constexpr double most_growth = 5.0;
   if (unseen > most_unseen) { return "no bound: most of it is light that may pass where no segment did"; }
+  if (estimate > most_estimate) { return "no bound: more than half of the light that it is relative to may be error"; }
   if (closed) { return {}; }
   double once = 0.0;
   double all = 0.0;

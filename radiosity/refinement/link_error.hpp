@@ -52,7 +52,11 @@ struct ErrorEstimation {
   double norm = 0.0;    // of the reflected radiosity
 
   [[nodiscard]] double sum(double part) const { return of_links + part * part * of_leaves; }
-  [[nodiscard]] double relative(double part) const { return norm > 0.0 ? std::sqrt(sum(part) / norm) : 0.0; }
+  // Where nothing is lit by the solution, but may be, all of the light may be missing: 1.
+  [[nodiscard]] double relative(double part) const {
+    if (!(norm > 0.0)) { return sum(part) > 0.0 ? 1.0 : 0.0; }
+    return std::sqrt(sum(part) / norm);
+  }
 };
 
 // Errors of links only, and the norm.
@@ -66,10 +70,11 @@ ErrorEstimation sampled_estimate(const DiscreteScene& scene, const std::array<st
                                  const std::vector<Color>& radiosity, const EvaluateResult& evaluated);
 
 // A sentence that says why the estimate is no bound, or nothing. The estimate does not include light that no segment found, nor the
-// growth of errors that are reflected repeatedly (a closed scene keeps its row sums, so its errors have no mean). `unseen`: share of its
-// square from links whose segments were all blocked.
-std::string estimate_doubt(const DiscreteScene& scene, Transport& transport, const std::vector<Color>& radiosity, double unseen,
-                           bool closed);
+// growth of errors that are reflected repeatedly (a closed scene keeps its row sums, so its errors have no mean); and it is relative to
+// the light that was computed, of which a large error is a part. `estimate`: of the leaves; `unseen`: share of its square from links whose
+// segments were all blocked.
+std::string estimate_doubt(const DiscreteScene& scene, Transport& transport, const std::vector<Color>& radiosity, double estimate,
+                           double unseen, bool closed);
 
 }  // namespace detail
 

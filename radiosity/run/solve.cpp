@@ -108,7 +108,8 @@ HALFLIGHT_INLINE void estimate_error(Run& run) {
     run.unseen = errors.sum(1.0) > 0.0 ? errors.unseen / errors.sum(1.0) : 0.0;
   }
   if (audit.estimated_error) {
-    audit.estimate_doubt = estimate_doubt(scene, *run.transport, solution.radiosity, run.unseen, audit.closure.has_value());
+    audit.estimate_doubt =
+        estimate_doubt(scene, *run.transport, solution.radiosity, *audit.estimated_leaf_error, run.unseen, audit.closure.has_value());
   }
 }
 

@@ -62,7 +62,8 @@ TEST_CASE("light of a bright spot for which a mesh stands in has no bias", "[pic
 // To the walls the light of a shade's inside comes below its rim alone, so a ray aimed at it mostly meets the outside. Photons that the
 // inside sends out tell which part of it a point of the wall sees. Where they began behind the mesh that stands in for the shade, none got
 // out, and what points differed by was 9 to 15 % in place of 1.5 %.
-TEST_CASE("light from within a shade for which a mesh stands in differs from point to point no more than is asked for", "[picture]") {
+TEST_CASE("light from within a shade for which a mesh stands in differs from point to point no more than is asked for",
+          "[picture][accuracy]") {
   const auto seed = static_cast<std::uint64_t>(GENERATE(take(2, random(1, 1'000'000))));
   const radiosity::Scene scene = scenes::shaded_lamp(seed);
   radiosity::Random random{seed, 1};

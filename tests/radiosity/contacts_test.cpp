@@ -91,7 +91,7 @@ std::vector<double> errors_beneath_slabs(radiosity::Random& random) {
 // Points may be off by 3 % and bend between pixels; what is more than 20 % off shows as a stain. Of 17 600 pixels of eight facades one was,
 // 0.006 %; where spheres were limited by their own rays alone, 0.4 to 6.5 % of each facade's, because points that do not notice a slab lent
 // the open wall's light to what lies beneath it.
-TEST_CASE("beneath a slab that stands out of a wall a picture shows the indirect light that is gathered there", "[picture]") {
+TEST_CASE("beneath a slab that stands out of a wall a picture shows the indirect light that is gathered there", "[picture][accuracy]") {
   const auto seed = std::random_device{}();
   INFO("seed " << seed);
   radiosity::Random random{seed, 0};

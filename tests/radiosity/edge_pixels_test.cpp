@@ -21,7 +21,7 @@
 
 // 64 rays know the share of either side of an edge to 1.45 %, which edges alone would have; there is light beside them, too. With 16 rays
 // in each of these pixels the pictures were off by 2.0 to 3.5 %.
-TEST_CASE("a gathered picture of bright edges in any direction has the mean over each pixel", "[picture]") {
+TEST_CASE("a gathered picture of bright edges in any direction has the mean over each pixel", "[picture][accuracy]") {
   const auto seed = std::random_device{}();
   INFO("seed " << seed);
   radiosity::Random random{seed, 0};

@@ -41,7 +41,7 @@ glm::dvec3 vector_area(const radiosity::Intake& intake, std::uint32_t material) 
 
 }  // namespace
 
-TEST_CASE("intake: lamp panels with backs of another group shine downwards alone, whatever frames meet their edges") {
+TEST_CASE("intake: lamp panels with backs of another group shine downwards alone, whatever frames meet their edges", "[accuracy]") {
   const unsigned seed = 20261129;
   INFO("seed " << seed);
   std::mt19937 random(seed);

@@ -208,7 +208,7 @@ TEST_CASE("near light: the lamps of other rooms, however bright, add next to no 
 }
 
 // So many that they are joined in groups; above a black ceiling there are as many, which light nothing below.
-TEST_CASE("near light: of many lamps, every second of them hidden, it is that of the form factors", "[picture]") {
+TEST_CASE("near light: of many lamps, every second of them hidden, it is that of the form factors", "[picture][accuracy]") {
   const auto seed = static_cast<std::uint64_t>(GENERATE(take(3, random(1, 1'000'000))));
   radiosity::Random random{seed, 0};
   using radiosity::Color;

@@ -25,7 +25,7 @@
 
 // A floor under a black lamp, from a spot to a sky: what the floor sends back is half of what comes to it, within five standard errors, and
 // 1 % for the 256 points that stand for the lamp.
-TEST_CASE("near places are lit by a lamp of any size at any distance as its form factor says", "[picture]") {
+TEST_CASE("near places are lit by a lamp of any size at any distance as its form factor says", "[picture][accuracy]") {
   const auto seed = static_cast<std::uint64_t>(GENERATE(take(12, random(1, 1'000'000))));
   radiosity::Random random{seed, 0};
   const double half = 0.03 * std::pow(300.0, random.uniform()), height = 0.05 * std::pow(40.0, random.uniform());

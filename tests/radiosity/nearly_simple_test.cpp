@@ -80,7 +80,7 @@ TEST_CASE("polygons within rounding of themselves: their parts have their area")
   CHECK(as_they_are > 50);
 }
 
-TEST_CASE("a notch within rounding of the opposite side: as much light arrives as with a visible gap") {
+TEST_CASE("a notch within rounding of the opposite side: as much light arrives as with a visible gap", "[accuracy]") {
   const auto table = [](double gap) {
     return std::vector<glm::dvec3>{{0.2, 0.2, 0.5},       {0.8, 0.2, 0.5},  {0.8, 0.8, 0.5}, {0.55, 0.8, 0.5},
                                    {0.5, 0.2 + gap, 0.5}, {0.45, 0.8, 0.5}, {0.2, 0.8, 0.5}};

@@ -49,7 +49,8 @@ radiosity::Scene ball_over_plate(radiosity::Random& random) {
 
 }  // namespace
 
-TEST_CASE("a run that has converged is not contradicted by its own audit: by a target, or without one by three times the estimate") {
+TEST_CASE("a run that has converged is not contradicted by its own audit: by a target, or without one by three times the estimate",
+          "[accuracy]") {
   const auto seed = std::random_device{}();
   INFO("seed " << seed);
   radiosity::Random random{seed, 0};
