@@ -248,7 +248,8 @@ class GltfReader {
     const double inner = given["spot"]["innerConeAngle"].number(0.0);
     const double outer = given["spot"]["outerConeAngle"].number(0.25 * std::numbers::pi);
     const bool ends = kind != ModelLight::Kind::sun && given["range"];
-    model_.lights.push_back({kind, glm::dvec3(matrix[3]), intensity, true, -glm::dvec3(matrix[2]), inner, outer, ends});
+    model_.lights.push_back({kind, glm::dvec3(matrix[3]), intensity, true, -glm::dvec3(matrix[2]), inner, outer});
+    model_.lights.back().fades_otherwise = ends;
   }
 
   void camera(const JsonValue& node, const glm::dmat4& matrix) {

@@ -2,9 +2,11 @@
 #include "apps/intake/light_lamps.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <numbers>
 #include <optional>
@@ -20,7 +22,6 @@
 #include <raycast/box.hpp>
 #include <raycast/circle.hpp>
 #include <raycast/objects/disk.hpp>
-#include <raycast/objects/mesh.hpp>
 #include <raycast/objects/sphere.hpp>
 #include <raycast/scene.hpp>
 
@@ -28,6 +29,7 @@
 #include <radiosity/scene/bounds.hpp>
 #include <radiosity/scene/material.hpp>
 
+#include "apps/intake/spot_cup.hpp"
 #include "apps/text.hpp"
 
 namespace apps {
@@ -36,36 +38,6 @@ namespace {
 constexpr double degree = std::numbers::pi / 180.0;
 // In diameters of the scene. From its middle to its rim rays diverge by a sixteenth of the sun's width.
 constexpr double suns_away = 1e3;
-
-// A closed prism with a recess of the same number of sides, which opens towards `axis`.
-std::shared_ptr<const raycast::Object> cup(const glm::dvec3& bottom, const glm::dvec3& axis, double rim, double depth, double wall) {
-  constexpr std::uint32_t sides = 24;
-  const raycast::AxisFrame frame(axis);
-  std::vector<glm::dvec3> corners;
-  const auto ring = [&](double radius, double height) {
-    for (std::uint32_t i = 0; i < sides; ++i) {
-      const double angle = 2.0 * std::numbers::pi * i / sides;
-      corners.push_back(bottom + radius * (std::cos(angle) * frame.u + std::sin(angle) * frame.v) + height * frame.w);
-    }
-  };
-  ring(rim, 0.0);
-  ring(rim, depth);
-  ring(rim + wall, depth);
-  ring(rim + wall, -wall);
-  constexpr std::uint32_t rings = 4;
-  std::vector<std::vector<std::uint32_t>> faces(2);  // the bottoms, inside and outside
-  for (std::uint32_t i = 0; i < sides; ++i) {
-    faces[0].push_back(i);
-    faces[1].push_back(rings * sides - 1 - i);
-  }
-  for (std::uint32_t r = 0; r + 1 < rings; ++r) {
-    for (std::uint32_t i = 0; i < sides; ++i) {
-      const std::uint32_t a = r * sides + i, b = r * sides + (i + 1) % sides;
-      faces.push_back({b, a, a + sides, b + sides});
-    }
-  }
-  return raycast::Mesh::make(corners, faces, 1e-12 * (glm::length(bottom) + rim + depth)).object;
-}
 
 class LampMaker {
  public:
@@ -178,16 +150,13 @@ class LampMaker {
     }
   }
 
-  void spot(const ModelLight& light, const glm::dvec3& at, double size, const radiosity::Color& intensity) {
-    constexpr double widest = 90.0 * degree, narrowest = 1.0 * degree, sharpest = 0.05, fits = 0.95, gap = 0.05;
-    const double outer = std::clamp(light.outer, narrowest, widest);
-    const double inner = std::clamp(light.inner, 0.0, (1.0 - sharpest) * outer), mean = 0.5 * (inner + outer);
-    const double depth = 2.0 * size / std::max(1.0, std::tan(mean)), rim = depth * std::tan(mean), wall = 0.1 * depth;
-    const double radius = std::min(depth * std::sin(outer - mean) / std::cos(mean), fits * rim);
-    const glm::dvec3 axis = glm::normalize(light.direction), below = (1.0 + gap) * radius * axis;
-    std::shared_ptr<const raycast::Object> blind = cup(at - below, axis, rim, depth + (1.0 + gap) * radius, wall);
-    raycast::Made<raycast::Sphere> ball = raycast::Sphere::make(at, radius);
-    if (!blind || !take(std::move(ball.object), intensity / (radius * radius), "sphere")) { return; }
+  void spot(const ModelLight& light, const glm::dvec3& at, double radius, const radiosity::Color& intensity) {
+    constexpr double largest = 2.0;
+    const SpotCup& cup = cup_of(light);
+    const double ball = radius * std::min(1.0, largest / std::max(cup.rim, cup.depth));
+    std::shared_ptr<const raycast::Object> blind = recess(cup, at, light.direction, ball);
+    raycast::Made<raycast::Sphere> lamp = raycast::Sphere::make(at, ball);
+    if (!blind || !take(std::move(lamp.object), intensity / (ball * ball), "sphere")) { return; }
     if (!blind_) {
       blind_ = static_cast<std::uint32_t>(file_.scene.materials.size());
       file_.scene.materials.push_back({"blind", radiosity::Color(0.0), radiosity::Color(0.0)});
@@ -195,6 +164,15 @@ class LampMaker {
     file_.scene.objects.push_back({"blind", std::move(blind), {}, {*blind_}});
     file_.origins.push_back({"mesh", {}});
     ++spots_;
+    spots_differ_ = std::max(spots_differ_, cup.difference);
+  }
+
+  // Files have many spots of one kind.
+  const SpotCup& cup_of(const ModelLight& light) {
+    const std::array kind{light.inner, light.outer, static_cast<double>(light.fade), light.power};
+    const auto [place, is_new] = cups_.try_emplace(kind);
+    if (is_new) { place->second = spot_cup(light); }
+    return place->second;
   }
 
   void sun(const ModelLight& light) {
@@ -311,8 +289,13 @@ class LampMaker {
     if (suns_ > 0) { note(counted(suns_, "directional light became a sun", "directional lights became suns") + " half a degree wide"); }
     if (spots_ > 0) {
       note(counted(spots_, "spot light became a small lamp in a black cup", "spot lights became small lamps in black cups"));
-      warn(counted(spots_, "spot light fades", "spot lights fade") +
-           " from the inner to the outer cone of the file as a round lamp in a black cup does");
+      if (spots_differ_ > 0.005) {
+        std::ostringstream text;
+        text << std::round(100.0 * spots_differ_);
+        warn(counted(spots_, "spot light sends", "spot lights send") +
+             " as much light as in the file, but fade from the axis as a round lamp in a black cup does: by " + text.str() +
+             " % (RMS) otherwise");
+      }
     }
     if (file_.sky.factor > 1.0) {
       std::ostringstream factor;
@@ -328,6 +311,8 @@ class LampMaker {
   raycast::Box lit_;  // of what is lit: without sky
   double size_ = 0.0, widest_ = 0.0;
   std::optional<std::uint32_t> blind_;  // the material
+  double spots_differ_ = 0.0;
+  std::map<std::array<double, 4>, SpotCup> cups_;
   std::size_t balls_ = 0, spots_ = 0, suns_ = 0, left_out_ = 0, fade_otherwise_ = 0;
 };
 

@@ -15,9 +15,7 @@ namespace apps {
 //
 // Ball: its radius is at most 2 cm, a hundredth of the scene's diameter, and a tenth of the way to the next surface. One of I W/sr has the
 // exitance I / radius^2.
-// Spot: a ball of radius r, deep in a black cup. A ray from its centre, of the angle t from the axis, passes the rim of the cup, of radius
-// a and h before the centre, at the distance a cos t - h sin t. All of the ball is seen where that is at least r, and nothing where it is
-// below -r. So a, h and r are chosen that the light is full in the inner cone of the file, and none outside of the outer.
+// Spot: a ball in a black cup (spot_cup.hpp), neither of them larger than twice the radius of a ball without one.
 // Sun: a disk half a degree wide, a thousand diameters of the scene away, so that its rays are parallel within a sixteenth of that. At ten
 // thousand, rooms lit through windows took 15 to 40 % longer.
 //

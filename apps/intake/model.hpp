@@ -50,6 +50,11 @@ struct ModelLight {
   bool absolute = false;
   glm::dvec3 direction{0.0, 0.0, -1.0};  // in which a spot or a sun shines, of any length
   double inner = 0.0, outer = 0.0;       // of a spot, radians from its axis: full light up to `inner`, none beyond `outer`
+  // Of a spot: how the light falls from the inner to the outer cone. With the square of a share of the cosine (glTF, KHR_lights_punctual),
+  // with a share of the angle (VRML 2.0), or from the axis with a power of the cosine (VRML 1.0, as in OpenGL).
+  enum class Fade : unsigned char { squared_cosine, by_angle, power_of_cosine };
+  Fade fade = Fade::squared_cosine;
+  double power = 0.0;  // of the cosine
   bool fades_otherwise = false;          // in its file: not with the square of the distance, or it ends at a distance
 };
 

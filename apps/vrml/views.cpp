@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Cameras and lights of the scene graph.
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -46,8 +47,13 @@ void add_light(Model& model, const Node& node, const State& state) {
   light.intensity = glm::max(intensity * color, glm::dvec3(0.0));
   light.direction = glm::dmat3(state.transform) * node.vector("direction", {0.0, 0.0, -1.0});
   light.outer = node.number("cutOffAngle", 0.785398);
-  // VRML 1.0 lets the light fall with a power of the cosine: full light on the axis only, unless the power is 0.
-  light.inner = v97 ? node.number("beamWidth", 1.570796) : node.number("dropOffRate", 0.0) > 0.0 ? 0.0 : light.outer;
+  if (v97) {
+    light.inner = node.number("beamWidth", 1.570796);
+    light.fade = ModelLight::Fade::by_angle;
+  } else {
+    light.fade = ModelLight::Fade::power_of_cosine;
+    light.power = 128.0 * std::clamp(node.number("dropOffRate", 0.0), 0.0, 1.0);
+  }
   const glm::dvec3 attenuation = node.vector("attenuation", {1.0, 0.0, 0.0});
   light.fades_otherwise = v97 && light.kind != ModelLight::Kind::sun && (attenuation.x != 0.0 || attenuation.y != 0.0);
   model.lights.push_back(light);
