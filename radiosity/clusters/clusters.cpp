@@ -2,6 +2,7 @@
 #include <radiosity/clusters/clusters.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -24,6 +25,7 @@
 #include <radiosity/geometry/direction_lattice.hpp>
 #include <radiosity/hierarchy/hierarchy.hpp>
 #include <radiosity/hierarchy/surface.hpp>
+#include <radiosity/scene/material.hpp>
 
 namespace radiosity {
 
@@ -236,16 +238,29 @@ HALFLIGHT_INLINE Hierarchy make_clusters(std::vector<Surface>& surfaces, const H
   return writer.write({writer.group(std::move(under_root))});
 }
 
-HALFLIGHT_INLINE Hierarchy make_lamp_clusters(std::vector<Surface>& surfaces, const Hierarchy& roots, const std::vector<double>& exitance) {
+namespace detail {
+
+// Equal for lamps that may be in one tree. The first number is the larger the brighter.
+[[nodiscard]] HALFLIGHT_INLINE std::array<int, 4> kind_of_lamp(const Color& exitance) {
+  constexpr double steps = 4.0;
+  const double most = brightest(exitance);
+  std::array<int, 4> kind{std::ilogb(most) / 2, 0, 0, 0};
+  for (int c = 0; c < 3; ++c) { kind[static_cast<std::size_t>(c) + 1] = static_cast<int>(steps * exitance[c] / most); }
+  return kind;
+}
+
+}  // namespace detail
+
+HALFLIGHT_INLINE Hierarchy make_lamp_clusters(std::vector<Surface>& surfaces, const Hierarchy& roots, const std::vector<Color>& exitance) {
   detail::ClusterWriter writer{surfaces, roots};
   std::vector<std::uint32_t> tops;
-  std::map<int, std::vector<std::uint32_t>, std::greater<>> lamps;  // lamps, by exponent of their exitance, brightest first
+  std::map<std::array<int, 4>, std::vector<std::uint32_t>, std::greater<>> lamps;  // by kind, brightest first
   for (std::uint32_t i = 0; i < roots.size(); ++i) {
     if (roots[i].parent != no_node) { continue; }
-    const double e = exitance[roots[i].surface];
-    (e > 0.0 ? lamps[std::ilogb(e) / 2] : tops).push_back(i);
+    const Color& e = exitance[roots[i].surface];
+    (is_black(e) ? tops : lamps[detail::kind_of_lamp(e)]).push_back(i);
   }
-  for (const auto& [brightness, numbers] : lamps) {
+  for (const auto& [kind, numbers] : lamps) {
     std::vector<raycast::Box> boxes;
     for (const std::uint32_t i : numbers) { boxes.push_back({roots[i].centre - roots[i].radius, roots[i].centre + roots[i].radius}); }
     const Grouping tree = detail::group_boxes(boxes);

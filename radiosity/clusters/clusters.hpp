@@ -41,9 +41,10 @@ std::vector<raycast::Box> bounds_of(const Grouping& tree, const Hierarchy& roots
 [[nodiscard]] Hierarchy make_clusters(std::vector<Surface>& surfaces, const Hierarchy& roots);
 
 // Inserts clusters only above emitting roots, because their light is carried by links and all other light by stored rays (rays/). All
-// other roots come first and stay roots. `exitance`: of each input surface; 0 if it does not count as a lamp. Lamps in the same tree
-// differ in exitance by at most a factor of 4.
-[[nodiscard]] Hierarchy make_lamp_clusters(std::vector<Surface>& surfaces, const Hierarchy& roots, const std::vector<double>& exitance);
+// other roots come first and stay roots. `exitance`: of each input surface; black if it does not count as a lamp. Lamps in the same tree
+// differ in their brightest channel by at most a factor of 4, in the others by less than a quarter of it: what a patch sees of a cluster
+// may be lamps of any of its colours.
+[[nodiscard]] Hierarchy make_lamp_clusters(std::vector<Surface>& surfaces, const Hierarchy& roots, const std::vector<Color>& exitance);
 
 // The projected area of each cluster in each direction of the lattice.
 class ShownAreas {

@@ -31,7 +31,8 @@
 
 namespace radiosity {
 
-HALFLIGHT_INLINE LampExchange::LampExchange(const SceneView& scene, const Exposure* exposure, const ShownAreas& shown)
+HALFLIGHT_INLINE LampExchange::LampExchange(const SceneView& scene, const Exposure* exposure, const ShownAreas& shown,
+                                            const std::vector<double>& emission)
     : scene_{scene}, exposure_{exposure}, shown_{&shown} {
   const Hierarchy& nodes = scene.hierarchy;
   first_.push_back(0);
@@ -49,22 +50,24 @@ HALFLIGHT_INLINE LampExchange::LampExchange(const SceneView& scene, const Exposu
       }
       for (std::uint32_t k = nodes[top].child_count; k-- > 0;) { open.push_back(nodes[top].first_child + k); }
     }
-    add_points(faces);
+    add_points(faces, emission);
     first_.push_back(points_.size());
   }
 }
 
-HALFLIGHT_INLINE void LampExchange::add_points(const std::vector<std::uint32_t>& faces) {
+HALFLIGHT_INLINE void LampExchange::add_points(const std::vector<std::uint32_t>& faces, const std::vector<double>& emission) {
   std::size_t gauss = 0;
-  double all = 0.0;
+  double all = 0.0, light = 0.0;
   for (const std::uint32_t f : faces) {
     gauss += scene_.patches[f].rule2.size();
     all += area(f);
+    light += area(f) * emission[scene_.hierarchy[f].surface];
   }
+  const auto relative = [&](std::uint32_t f) { return light > 0.0 ? all * emission[scene_.hierarchy[f].surface] / light : 1.0; };
   if (gauss <= most_points) {
     for (const std::uint32_t f : faces) {
       const Patch& patch = scene_.patches[f];
-      const double exposed = area(f) / patch.area;
+      const double exposed = relative(f) * area(f) / patch.area;
       for (const QuadraturePoint& x : patch.rule2) { points_.push_back({x.position, patch.normal, exposed * x.weight, f}); }
     }
     return;
@@ -73,13 +76,13 @@ HALFLIGHT_INLINE void LampExchange::add_points(const std::vector<std::uint32_t>&
     points_.push_back({exposure_ != nullptr ? exposure_->centroid[f] : scene_.patches[f].centroid, scene_.patches[f].normal, of_area, f});
   };
   if (faces.size() <= most_points) {
-    for (const std::uint32_t f : faces) { add(f, area(f)); }
+    for (const std::uint32_t f : faces) { add(f, relative(f) * area(f)); }
     return;
   }
   double until = 0.0;
   std::size_t next = 0;
   for (const std::uint32_t f : faces) {  // order of the tree: consecutive faces are near each other
-    until += area(f);
+    until += relative(f) * area(f);
     for (; next < most_points && (static_cast<double>(next) + 0.5) * all < until * most_points; ++next) { add(f, all / most_points); }
   }
 }

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The exchange between a cluster of emitting faces (make_lamp_clusters()) and a patch. The cluster is represented by up to 256 points:
-// the Gauss points of few faces, the centres of more faces, or 256 faces drawn evenly by area if there are many. The unoccluded exchange,
+// The exchange between a cluster of emitting faces (make_lamp_clusters()) and a patch, of which the patch gets the light of the faces when
+// it is multiplied with their mean exitance: a face counts as its area times its exitance relative to that mean. The cluster is represented by up to 256 points:
+// the Gauss points of few faces, the centres of more faces, or 256 faces drawn evenly by light if there are many. The unoccluded exchange,
 // and its gradient over the patch, is the sum over these points and the Gauss points of the patch. Occlusion is sampled by segments whose
 // start points are drawn in proportion to the light that each sends.
 //
@@ -28,8 +29,8 @@ namespace radiosity {
 class LampExchange {
  public:
   // For the clusters of the scene's hierarchy. The references must outlive this; the hierarchy may grow. Without `exposure` all area
-  // counts as exposed.
-  LampExchange(const SceneView& scene, const Exposure* exposure, const ShownAreas& shown);
+  // counts as exposed. `emission`: of each input surface, in any unit.
+  LampExchange(const SceneView& scene, const Exposure* exposure, const ShownAreas& shown, const std::vector<double>& emission);
 
   struct Result {
     double sent = 0.0;      // unoccluded exchange, m2
@@ -49,12 +50,12 @@ class LampExchange {
  private:
   struct Point {
     glm::dvec3 position{0.0}, normal{0.0};
-    double area = 0.0;
+    double area = 0.0;  // times the relative exitance
     std::uint32_t face = no_node;
   };
   static constexpr std::size_t most_points = 256;
 
-  void add_points(const std::vector<std::uint32_t>& faces);
+  void add_points(const std::vector<std::uint32_t>& faces, const std::vector<double>& emission);
   [[nodiscard]] double area(std::size_t i) const { return exposure_ != nullptr ? exposure_->area[i] : scene_.hierarchy[i].area; }
   [[nodiscard]] std::span<const Point> points_of(std::uint32_t lamp) const;
   // The mean direction of the unoccluded light from the lamp to a patch, which must be lit by it.

@@ -45,7 +45,7 @@ namespace detail {
 // Largest distance of facets from a curved surface, relative to the object's diameter; below, the same for stand-in meshes.
 inline constexpr double facet_tolerance = 0.002;
 inline constexpr double stand_in_tolerance = 0.0004;
-inline constexpr std::size_t samples_of_lamp = 256;
+inline constexpr std::size_t samples_of_lamp = 256, samples_of_ball = 128;  // of other bodies half of the samples face a point
 // A large lamp gets fine samples, because a point may see only a small part of it; at most most_fine lamps, the brightest ones.
 // large_lamp: square root of its area, relative to the scene's diameter. The partial occlusion of a smaller lamp shows only at the edge
 // of a shadow.
@@ -138,8 +138,13 @@ HALFLIGHT_INLINE void DirectLight::take_samples(Lamp& lamp, bool fine, std::uint
       lamp.ends.push_back({object.flat() ? raycast::no_object : o, 0.0});
     }
   }
-  lamp.samples = lamp_samples(lamp.facets, lamp.ends, detail::samples_of_lamp, seed);
-  if (fine) { lamp.fine = FineSamples{lamp.samples, lamp_samples(lamp.facets, lamp.ends, detail::fine_samples, seed)}; }
+  lamp.ball = lamp.facets.parts.size() == 1 && lamp.facets.parts[0].roundness > 0.0;
+  const auto samples = [&](std::size_t count) {
+    return lamp.ball ? disk_samples(lamp.ends[0], count, seed) : lamp_samples(lamp.facets, lamp.ends, count, seed);
+  };
+  lamp.samples = samples(lamp.ball ? detail::samples_of_ball : detail::samples_of_lamp);
+  if (lamp.ball) { lamp.rim = rim_samples(lamp.ends[0]); }
+  if (fine) { lamp.fine = FineSamples{lamp.samples, samples(detail::fine_samples)}; }
 }
 
 HALFLIGHT_INLINE DirectLight::Sheets DirectLight::sheets_of(const std::vector<Surface>& surfaces, const std::vector<Color>& emission) {

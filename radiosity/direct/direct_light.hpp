@@ -67,7 +67,9 @@ class DirectLight {
     std::array<glm::dvec3, 4> corners;  // rectangle around it, in its plane; of a curved lamp, in a plane through one of its points
     double bulge = 0.0;                 // largest distance from the plane of the rectangle
     std::vector<SampleEnd> ends;        // by facet
+    bool ball = false;                  // nearly a sphere: then the samples are those of a disk
     std::vector<LampSample> samples;    // stratified over its area, any first multiple of 16 of them, too
+    std::vector<LampSample> rim;        // of a ball: sixteen samples on the rim of the disk, in addition
     FineSamples fine;                   // finer samples around these; only large lamps have them
     std::vector<bool> behind;           // by object: does a part of it lie behind the plane of the flat lamp?
     [[nodiscard]] raycast::PatchShape shape() const { return {corners, object, bulge}; }

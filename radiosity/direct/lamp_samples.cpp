@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <numbers>
 #include <span>
 #include <vector>
 
@@ -14,31 +15,79 @@
 
 #include <brep/inline.hpp>
 
+#include <raycast/box.hpp>
 #include <raycast/tolerances.hpp>
 
 #include <radiosity/direct/facets.hpp>
 #include <radiosity/support/draw.hpp>
+#include <radiosity/support/random.hpp>
 #include <radiosity/support/sobol.hpp>
 
 namespace radiosity {
+
+namespace detail {
+
+// The place of a point of the unit cube along Hilbert's curve (1891) through it, on a grid of 2^bits cells a side, by the algorithm of
+// Skilling (2004). Points that are near each other on the curve are near each other.
+[[nodiscard]] HALFLIGHT_INLINE std::uint64_t along_hilbert_curve(const glm::dvec3& point) {
+  constexpr unsigned bits = 16;
+  std::array<std::uint32_t, 3> x{};
+  for (int k = 0; k < 3; ++k) {
+    x[static_cast<std::size_t>(k)] = static_cast<std::uint32_t>(std::clamp(point[k], 0.0, 1.0) * ((1u << bits) - 1));
+  }
+  for (std::uint32_t q = 1u << (bits - 1); q > 1; q >>= 1) {
+    const std::uint32_t lower = q - 1;
+    for (std::uint32_t& axis : x) {
+      const std::uint32_t t = (x[0] ^ axis) & lower;
+      if ((axis & q) != 0) {
+        x[0] ^= lower;
+      } else {
+        x[0] ^= t;
+        axis ^= t;
+      }
+    }
+  }
+  x[1] ^= x[0];
+  x[2] ^= x[1];
+  std::uint32_t t = 0;
+  for (std::uint32_t q = 1u << (bits - 1); q > 1; q >>= 1) { t ^= (x[2] & q) != 0 ? q - 1 : 0; }
+  std::uint64_t place = 0;
+  for (std::uint32_t q = 1u << (bits - 1); q > 0; q >>= 1) {
+    for (const std::uint32_t axis : x) { place = place << 1 | (((axis ^ t) & q) != 0 ? 1u : 0u); }
+  }
+  return place;
+}
+
+}  // namespace detail
 
 HALFLIGHT_INLINE std::vector<LampSample> lamp_samples(const Facets& facets, std::span<const SampleEnd> ends, std::size_t count,
                                                       std::uint64_t seed) {
   struct Triangle {
     glm::dvec3 a{0.0}, b{0.0}, c{0.0}, normal{0.0};
     SampleEnd end;
+    std::uint64_t place = 0;
   };
+  raycast::Box bounds;
+  for (const Facets::Facet& facet : facets.facets) {
+    for (const glm::dvec3& p : facet.contour) { bounds.extend(p); }
+  }
+  const glm::dvec3 size = bounds.size();
+  const double width = std::max({size.x, size.y, size.z});
   std::vector<Triangle> triangles;
   std::vector<double> until;  // cumulative area
   double total = 0.0;
   for (std::size_t f = 0; f < facets.facets.size(); ++f) {
     const Facets::Facet& facet = facets.facets[f];
     for (std::size_t i = 1; i + 1 < facet.contour.size(); ++i) {
-      const Triangle t{facet.contour[0], facet.contour[i], facet.contour[i + 1], facet.normal, ends[f]};
-      total += 0.5 * glm::length(glm::cross(t.b - t.a, t.c - t.a));
+      Triangle t{facet.contour[0], facet.contour[i], facet.contour[i + 1], facet.normal, ends[f]};
+      t.place = detail::along_hilbert_curve(((t.a + t.b + t.c) / 3.0 - bounds.lo) / width);
       triangles.push_back(t);
-      until.push_back(total);
     }
+  }
+  std::stable_sort(triangles.begin(), triangles.end(), [](const Triangle& a, const Triangle& b) { return a.place < b.place; });
+  for (const Triangle& t : triangles) {
+    total += 0.5 * glm::length(glm::cross(t.b - t.a, t.c - t.a));
+    until.push_back(total);
   }
   const Sobol4 sequence{seed, 0x6c616d70ull};
   std::vector<LampSample> samples;
@@ -54,6 +103,54 @@ HALFLIGHT_INLINE std::vector<LampSample> lamp_samples(const Facets& facets, std:
     samples.push_back({on_facet + t.end.lift * t.normal, t.normal, t.end});
   }
   return samples;
+}
+
+HALFLIGHT_INLINE std::vector<LampSample> disk_samples(const SampleEnd& end, std::size_t count, std::uint64_t seed) {
+  const Sobol4 sequence{seed, 0x6469736bull};
+  std::vector<LampSample> samples;
+  samples.reserve(count);
+  for (std::uint32_t k = 0; k < count; ++k) {
+    const std::array<double, 4> u = sequence(k);
+    const double a = 2.0 * u[0] - 1.0, b = 2.0 * u[1] - 1.0;
+    const bool wide = std::abs(a) > std::abs(b);
+    const double radius = wide ? a : b, share = radius != 0.0 ? (wide ? b : a) / radius : 0.0;
+    const double angle = 0.25 * std::numbers::pi * (wide ? share : 2.0 - share);
+    samples.push_back({{radius * std::cos(angle), radius * std::sin(angle), 0.0}, {}, end});
+  }
+  return samples;
+}
+
+HALFLIGHT_INLINE std::vector<LampSample> rim_samples(const SampleEnd& end) {
+  constexpr int count = 16;
+  constexpr double radius = 0.99;
+  std::vector<LampSample> samples;
+  for (int k = 0; k < count; ++k) {
+    const double angle = 2.0 * std::numbers::pi * k / count;
+    samples.push_back({{radius * std::cos(angle), radius * std::sin(angle), 0.0}, {}, end});
+  }
+  return samples;
+}
+
+HALFLIGHT_INLINE SeenBall::SeenBall(const glm::dvec3& centre, double radius, const glm::dvec3& x)
+    : centre_{centre}, x_{x}, radius_{radius}, distance_{glm::length(centre - x)} {
+  if (!(distance_ > radius)) { return; }
+  axis_ = (centre - x) / distance_;
+  const auto [s, t] = orthonormal(axis_);
+  s_ = s;
+  t_ = t;
+  const double sine = radius / distance_;
+  versine_ = sine * sine / (1.0 + std::sqrt(1.0 - sine * sine));
+}
+
+HALFLIGHT_INLINE LampSample SeenBall::at(const LampSample& of_disk) const {
+  const glm::dvec3& p = of_disk.position;
+  const double versine = versine_ * (p.x * p.x + p.y * p.y), cosine = 1.0 - versine;
+  const double sine = std::sqrt(versine_ * (1.0 + cosine));  // over the radius in the disk
+  const glm::dvec3 direction = cosine * axis_ + sine * (p.x * s_ + p.y * t_);
+  const double aside = distance_ * sine * std::sqrt(p.x * p.x + p.y * p.y);
+  const double way = distance_ * cosine - std::sqrt(std::max(0.0, radius_ * radius_ - aside * aside));
+  const glm::dvec3 position = x_ + way * direction;
+  return {position, (position - centre_) / radius_, of_disk.end};
 }
 
 HALFLIGHT_INLINE FineSamples::FineSamples(std::span<const LampSample> coarse, std::span<const LampSample> fine)

@@ -33,6 +33,26 @@ struct LampSample {
 [[nodiscard]] std::vector<LampSample> lamp_samples(const Facets& facets, std::span<const SampleEnd> ends, std::size_t count,
                                                    std::uint64_t seed);
 
+// A lamp that is a ball is seen as a disk from anywhere, so its samples are points of a disk: none is wasted on the side that is not seen,
+// and all carry the same. They lie in the unit disk of the plane z = 0, stratified as above (concentric map of Shirley and Chiu 1997).
+[[nodiscard]] std::vector<LampSample> disk_samples(const SampleEnd& end, std::size_t count, std::uint64_t seed);
+
+// Sixteen points close to the rim. A straight edge that hides none of them hides less than 1 % of the disk.
+[[nodiscard]] std::vector<LampSample> rim_samples(const SampleEnd& end);
+
+// A ball as seen from x, a point outside of it.
+class SeenBall {
+ public:
+  SeenBall(const glm::dvec3& centre, double radius, const glm::dvec3& x);
+  [[nodiscard]] bool outside() const { return versine_ > 0.0; }
+  // The point of the ball for a sample of the disk: equal areas there are equal solid angles.
+  [[nodiscard]] LampSample at(const LampSample& of_disk) const;
+
+ private:
+  glm::dvec3 centre_, x_, axis_{0.0}, s_{0.0}, t_{0.0};
+  double radius_, distance_, versine_ = 0.0;  // 1 - the cosine of the apparent radius
+};
+
 // Fine samples of equal area, grouped by the nearest coarse sample, so that they fill its Voronoi cell (Voronoi 1908). Any first part of
 // a group is spread over the cell, too.
 class FineSamples {

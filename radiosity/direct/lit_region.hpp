@@ -139,6 +139,8 @@ class LitRegion {
     std::uint32_t seen = 0;
   };
   [[nodiscard]] Asked16 ask16(Reach& reach, const glm::dvec3& x, const glm::dvec3& n, std::span<const LampSample> samples);
+  // To samples at their places, also of a ball.
+  [[nodiscard]] Asked16 ask_placed16(Reach& reach, const glm::dvec3& x, const glm::dvec3& n, std::span<const LampSample> samples);
   [[nodiscard]] double seen_share(Reach& reach, const glm::dvec3& x, const glm::dvec3& n, std::size_t most);
   // The number of segments that determine the visible share of the lamp.
   [[nodiscard]] static std::size_t segments_for(const DirectLight::Lamp& lamp, const glm::dvec3& x, const glm::dvec3& n,

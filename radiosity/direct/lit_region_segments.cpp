@@ -4,6 +4,7 @@
 #include <radiosity/direct/lit_region.hpp>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstddef>
@@ -47,6 +48,22 @@ HALFLIGHT_INLINE const glm::dvec3& LitRegion::lifted(const glm::dvec3& x, const 
 
 HALFLIGHT_INLINE LitRegion::Asked16 LitRegion::ask16(Reach& reach, const glm::dvec3& x, const glm::dvec3& n,
                                                      std::span<const LampSample> samples) {
+  const DirectLight::Lamp& lamp = light_->lamps_[reach.lamp];
+  if (!lamp.ball) { return ask_placed16(reach, x, n, samples); }
+  const SeenBall ball{lamp.facets.parts[0].centre, lamp.facets.parts[0].radius, x};
+  if (!ball.outside()) { return {}; }
+  std::array<LampSample, 16> placed;
+  for (std::size_t k = 0; k < samples.size(); ++k) { placed[k] = ball.at(samples[k]); }
+  Asked16 result = ask_placed16(reach, x, n, std::span{placed}.first(samples.size()));
+  // Equal solid angles instead of equal areas.
+  for (std::size_t k = 0; k < samples.size(); ++k) {
+    if (result.weight[k] > 0.0) { result.weight[k] = glm::dot(n, glm::normalize(placed[k].position - x)); }
+  }
+  return result;
+}
+
+HALFLIGHT_INLINE LitRegion::Asked16 LitRegion::ask_placed16(Reach& reach, const glm::dvec3& x, const glm::dvec3& n,
+                                                            std::span<const LampSample> samples) {
   const double off_surface = light_->off_surface();
   const glm::dvec3 from = lift_ > 0.0 ? lifted(x, n) : x + off_surface * n;
   // Convex as well, because otherwise meshes would stand in for it.
@@ -123,6 +140,14 @@ HALFLIGHT_INLINE double LitRegion::seen_share(Reach& reach, const glm::dvec3& x,
   double all = 0.0;
   double seen = 0.0;
   std::size_t carrying = 0;
+  std::size_t quarter = most / 4;  // after so many it is decided whether the point sees all of the lamp or nothing
+  bool rim_seen = true, rim_hidden = true;
+  if (!lamp.rim.empty() && most > 16) {
+    const Asked16 rim = ask16(reach, x, n, lamp.rim);
+    rim_hidden = rim.seen == 0;
+    for (unsigned k = 0; k < 16; ++k) { rim_seen = rim_seen && (rim.weight[k] == 0.0 || (rim.seen >> k & 1u) != 0); }
+    quarter = 16;
+  }
   for (std::size_t first = 0; first < lamp.samples.size() && (first < most || carrying < detail::least_carrying); first += 16) {
     const Asked16 found = ask16(reach, x, n, std::span{lamp.samples}.subspan(first, 16));
     for (unsigned k = 0; k < 16; ++k) {
@@ -132,12 +157,12 @@ HALFLIGHT_INLINE double LitRegion::seen_share(Reach& reach, const glm::dvec3& x,
       carrying += found.weight[k] > 0.0 ? 1 : 0;
       if (seen_.back() != 0) { seen += found.weight[k]; }
     }
-    const std::size_t asked = first + 16, quarter = most / 4;
+    const std::size_t asked = first + 16;
     if (asked == std::max<std::size_t>(16, quarter) && too_near(lamp, x, n, all / static_cast<double>(asked))) {
       return seen_share_of_parts(reach, x, n);
     }
     if (asked != quarter || carrying < detail::least_carrying) { continue; }
-    if (seen == all || (seen == 0.0 && survey(reach).dark)) { return seen > 0.0 ? 1.0 : 0.0; }
+    if ((seen == all && rim_seen) || (seen == 0.0 && rim_hidden && survey(reach).dark)) { return seen > 0.0 ? 1.0 : 0.0; }
   }
   if (carrying < detail::least_carrying) { return seen_share_of_parts(reach, x, n); }
   if (!lamp.fine.empty() && most == lamp.samples.size() && seen < all) { refine(reach, x, n, all, seen); }
@@ -186,6 +211,7 @@ HALFLIGHT_INLINE void cut_evenly(std::vector<LampPart>& parts, const glm::dvec3&
 }  // namespace detail
 
 HALFLIGHT_INLINE bool LitRegion::too_near(const DirectLight::Lamp& lamp, const glm::dvec3& x, const glm::dvec3& n, double mean_weight) {
+  if (lamp.ball) { return false; }  // its samples are those that are seen
   const bool near = std::any_of(lamp.facets.parts.begin(), lamp.facets.parts.end(), [&](const Facets::Part& part) {
     const glm::dvec3 d = part.centre - x;
     return glm::dot(d, d) <= 4.0 * part.radius * part.radius;
@@ -227,7 +253,7 @@ HALFLIGHT_INLINE double LitRegion::seen_share_of(Reach& reach, const glm::dvec3&
   double all = 0.0, seen = 0.0;
   for (std::size_t first = 0; first < samples.size(); first += 16) {
     const std::size_t count = std::min<std::size_t>(16, samples.size() - first);
-    const Asked16 asked = ask16(reach, x, n, std::span{samples}.subspan(first, count));
+    const Asked16 asked = ask_placed16(reach, x, n, std::span{samples}.subspan(first, count));
     for (std::size_t k = 0; k < count; ++k) {
       if (!(asked.weight[k] > 0.0)) { continue; }
       all += parts[first + k].factor;

@@ -200,7 +200,7 @@ HALFLIGHT_INLINE LightOracle::LightOracle(const Scene& input, const SceneView& s
     }
     of_cluster_[node.cluster].mean = node.area > 0.0 ? sum / node.area : 0.0;
   }
-  if (!of_cluster_.empty() && !hierarchy[0].is_cluster()) { lamps_.emplace(scene, nullptr, shown); }
+  if (!of_cluster_.empty() && !hierarchy[0].is_cluster()) { lamps_.emplace(scene, nullptr, shown, emission_); }
 }
 
 HALFLIGHT_INLINE std::uint32_t LightOracle::wants_split(const Question& question) const {

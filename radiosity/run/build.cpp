@@ -63,8 +63,8 @@ HALFLIGHT_INLINE void choose_ways_of_light(Run& run, std::uint64_t uncut_lamps) 
   if (run.rays.many_lamps) {
     scene.lamps = choose_lamps(scene);
     if (std::find(scene.lamps.begin(), scene.lamps.end(), true) != scene.lamps.end()) {
-      std::vector<double> exitance(scene.lamps.size(), 0.0);
-      for (std::size_t s = 0; s < exitance.size(); ++s) { exitance[s] = scene.lamps[s] ? brightest(scene.emission[s]) : 0.0; }
+      std::vector<Color> exitance(scene.lamps.size(), Color{0.0});
+      for (std::size_t s = 0; s < exitance.size(); ++s) { exitance[s] = scene.lamps[s] ? scene.emission[s] : Color{0.0}; }
       scene.hierarchy = make_lamp_clusters(scene.surfaces, scene.hierarchy, exitance);
     }
   }

@@ -81,7 +81,9 @@ HALFLIGHT_INLINE void link_by_forms(Run& run) {
   DiscreteScene& scene = run.scene;
   if (run.solution.audit.clusters > 0) { scene.shown = scene.exposed_shown(); }
   if (run.solution.audit.clusters > 0 && !scene.clustered()) {
-    scene.lamp_exchange.emplace(scene.view(), &scene.exposure, scene.shown);
+    std::vector<double> emission;
+    for (const Color& e : scene.emission) { emission.push_back(brightest(e)); }
+    scene.lamp_exchange.emplace(scene.view(), &scene.exposure, scene.shown, emission);
     scene.evaluator.use(*scene.lamp_exchange);
   }
   const NodePairs pairs = std::exchange(run.refined.linked, {});

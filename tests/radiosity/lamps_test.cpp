@@ -45,9 +45,7 @@ std::unique_ptr<radiosity::DiscreteScene> with_lamp_clusters(const Scene& scene)
   REQUIRE(made.prepared);
   auto discrete = std::make_unique<radiosity::DiscreteScene>(scene, 1u, 1u);
   discrete->take(std::move(*made.prepared));
-  std::vector<double> exitance;
-  for (const Color& e : discrete->emission) { exitance.push_back(radiosity::brightest(e)); }
-  discrete->hierarchy = radiosity::make_lamp_clusters(discrete->surfaces, radiosity::make_roots(discrete->surfaces), exitance);
+  discrete->hierarchy = radiosity::make_lamp_clusters(discrete->surfaces, radiosity::make_roots(discrete->surfaces), discrete->emission);
   discrete->expose();
   discrete->shown = discrete->exposed_shown();
   return discrete;
@@ -58,6 +56,21 @@ double uniform(std::mt19937_64& random, double lo, double hi) { return std::unif
 glm::dvec3 point(std::mt19937_64& random, double lo, double hi) {
   const double x = uniform(random, lo, hi), y = uniform(random, lo, hi);
   return {x, y, uniform(random, lo, hi)};
+}
+
+radiosity::LampExchange exchange_of(const radiosity::DiscreteScene& scene) {
+  std::vector<double> emission;
+  for (const Color& e : scene.emission) { emission.push_back(radiosity::brightest(e)); }
+  return {scene.view(), &scene.exposure, scene.shown, emission};
+}
+
+std::uint32_t top_cluster(const radiosity::Hierarchy& hierarchy) {
+  std::uint32_t top = 0;
+  for (std::uint32_t i = 1; i < hierarchy.size(); ++i) {
+    if (hierarchy[i].is_cluster() && hierarchy[i].parent == radiosity::no_node) { top = i; }
+  }
+  REQUIRE(top > 0);
+  return top;
 }
 
 // A closed room of random proportions with blocks on its floor, and a lamp of radius 0.08 of one W at a random place above them.
@@ -111,16 +124,14 @@ TEST_CASE("a cluster of lamps exchanges with a patch what its faces do, one by o
       scene.objects = {scenes::plate("wall", {at - u - v, at - u + v, at + u + v, at + u - v}),
                        scenes::object("lamp", scenes::ball({0, 0, 0}, 0.1, n), 1)};
       const auto discrete = with_lamp_clusters(scene);
-      const radiosity::LampExchange lamps{discrete->view(), &discrete->exposure, discrete->shown};
+      const radiosity::LampExchange lamps = exchange_of(*discrete);
       REQUIRE(!discrete->hierarchy[0].is_cluster());
       double sum = 0.0;
-      std::uint32_t top = 0;
+      const std::uint32_t top = top_cluster(discrete->hierarchy);
       for (std::uint32_t i = 1; i < discrete->hierarchy.size(); ++i) {
         const radiosity::Node& node = discrete->hierarchy[i];
-        if (node.is_cluster() && node.parent == radiosity::no_node) { top = i; }
         if (!node.is_cluster()) { sum += radiosity::exchange(discrete->patches[0], discrete->patches[i]); }
       }
-      REQUIRE(top > 0);
       const auto result = lamps(top, 0, 4, radiosity::Random{seed, static_cast<std::uint64_t>(k)});
       CAPTURE(n, k, distance, half, sum, result.sent);
       CHECK(result.fraction == 1.0);
@@ -128,6 +139,43 @@ TEST_CASE("a cluster of lamps exchanges with a patch what its faces do, one by o
       // each point stands for some of them; 256 of even area err by about as much.
       CHECK(std::abs(result.sent - sum) <= 0.02 * sum);
     }
+  }
+}
+
+TEST_CASE("a cluster of lamps that do not shine alike sends the light of those that are seen", "[lamps]") {
+  const std::uint64_t seed = std::random_device{}();
+  CAPTURE(seed);
+  std::mt19937_64 random{seed};
+  for (int k = 0; k < 12; ++k) {
+    // Two lamps, of which a screen may hide one from a small plate.
+    const bool hidden = k % 2 == 1;
+    const double bright = uniform(random, 1.0, 3.9), aside = uniform(random, 0.3, 0.6), size = uniform(random, 0.03, 0.1);
+    Scene scene;
+    scene.materials = {{"grey", Color{0.5}, Color{0.0}}, {"dim", Color{0.0}, Color{1.0}}, {"bright", Color{0.0}, Color{bright}}};
+    scene.objects = {scenes::plate("plate", {{-0.1, -0.1, -3}, {0.1, -0.1, -3}, {0.1, 0.1, -3}, {-0.1, 0.1, -3}}),
+                     scenes::object("dim", scenes::ball({-aside, 0, 0}, uniform(random, 0.03, 0.1), 6), 1),
+                     scenes::object("bright", scenes::ball({aside, 0, 0}, size, 6), 2)};
+    if (hidden) { scene.objects.push_back(scenes::object("screen", scenes::box({0.05, -1, -0.3}, {2, 1, -0.2}), 0)); }
+    const auto discrete = with_lamp_clusters(scene);
+    const radiosity::LampExchange lamps = exchange_of(*discrete);
+    double area = 0.0, power = 0.0, expected = 0.0;
+    for (std::uint32_t i = 1; i < discrete->hierarchy.size(); ++i) {
+      const radiosity::Node& node = discrete->hierarchy[i];
+      const double exitance = node.is_cluster() ? 0.0 : discrete->emission[node.surface].x;
+      if (!(exitance > 0.0)) { continue; }
+      area += node.area;
+      power += node.area * exitance;
+      if (!hidden || node.object == 1) { expected += exitance * radiosity::exchange(discrete->patches[0], discrete->patches[i]); }
+    }
+    constexpr int draws = 2000;  // of one round each, which has no bias
+    const std::uint32_t top = top_cluster(discrete->hierarchy);
+    double sum = 0.0;
+    for (int i = 0; i < draws; ++i) {
+      const auto result = lamps(top, 0, 1, radiosity::Random{seed, static_cast<std::uint64_t>(draws * k + i)});
+      sum += result.sent * result.fraction / draws;
+    }
+    CAPTURE(k, bright, aside, size);
+    CHECK(sum * power / area == test::Approx(expected).epsilon(0.05));
   }
 }
 
@@ -147,13 +195,8 @@ TEST_CASE("rounds of segments to a cluster of lamps give the visible share on av
                      scenes::object("lamp", scenes::ball({0, 0, 0}, 0.1, 8), 1), scenes::plate("screen", strip(-2.0, at - half, -0.5)),
                      scenes::plate("screen", strip(at + half, 2.0, -0.5))};
     const auto discrete = with_lamp_clusters(scene);
-    const radiosity::LampExchange lamps{discrete->view(), &discrete->exposure, discrete->shown};
-    std::uint32_t top = 0;
-    for (std::uint32_t i = 1; i < discrete->hierarchy.size(); ++i) {
-      const radiosity::Node& node = discrete->hierarchy[i];
-      if (node.is_cluster() && node.parent == radiosity::no_node) { top = i; }
-    }
-    REQUIRE(top > 0);
+    const radiosity::LampExchange lamps = exchange_of(*discrete);
+    const std::uint32_t top = top_cluster(discrete->hierarchy);
     // A single round does not decide about others: its mean is the share.
     constexpr std::uint64_t count = 4000;
     struct Mean {
