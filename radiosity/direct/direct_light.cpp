@@ -69,16 +69,6 @@ inline constexpr std::size_t most_fine = 4;
   return {origin + u0 * u + v0 * v, origin + u1 * u + v0 * v, origin + u1 * u + v1 * v, origin + u0 * u + v1 * v};
 }
 
-// Is the point in front of more than half of the area?
-[[nodiscard]] HALFLIGHT_INLINE bool surrounds(const Facets& facets, const glm::dvec3& point) {
-  double in_front = 0.0, total = 0.0;
-  for (const Facets::Facet& f : facets.facets) {
-    total += f.area;
-    in_front += f.height(point) > least_slack ? f.area : 0.0;
-  }
-  return in_front > 0.5 * total;
-}
-
 }  // namespace detail
 
 HALFLIGHT_INLINE DirectLight::Lamp DirectLight::make_lamp(const raycast::Scene& objects, const std::vector<Surface>& surfaces,
@@ -205,7 +195,7 @@ HALFLIGHT_INLINE DirectLight::DirectLight(const raycast::Scene& objects, const s
     if (lamp.facets.empty()) { continue; }
     const bool fine = std::sqrt(c.area) > detail::large_lamp * objects.diameter() && fine_ones < detail::most_fine;
     fine_ones += fine ? 1 : 0;
-    if (detail::surrounds(lamp.facets, lamp.centre)) {
+    if (surrounds(lamp.facets, lamp.centre, detail::least_slack)) {
       taken += c.area;
       if (taken > limits.most_surrounding * total) { continue; }
     }

@@ -100,6 +100,15 @@ HALFLIGHT_INLINE double area_of(const Facets& facets) {
   return std::accumulate(facets.facets.begin(), facets.facets.end(), 0.0, [](double sum, const Facets::Facet& f) { return sum + f.area; });
 }
 
+HALFLIGHT_INLINE bool surrounds(const Facets& facets, const glm::dvec3& point, double slack) {
+  double in_front = 0.0, total = 0.0;
+  for (const Facets::Facet& f : facets.facets) {
+    total += f.area;
+    in_front += f.height(point) > slack ? f.area : 0.0;
+  }
+  return in_front > 0.5 * total;
+}
+
 HALFLIGHT_INLINE bool convex_within(const Facets& facets, double tolerance) {
   constexpr std::size_t most = 1000;
   if (facets.facets.size() > most) { return false; }

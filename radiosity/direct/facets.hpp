@@ -65,6 +65,8 @@ struct Facets {
 // The facets of these sheets, in ascending order.
 [[nodiscard]] Facets facets_of(const Surface& surface, std::span<const std::uint32_t> sheets);
 [[nodiscard]] double area_of(const Facets& facets);
+// Is the point more than `slack` in front of more than half of the area?
+[[nodiscard]] bool surrounds(const Facets& facets, const glm::dvec3& point, double slack);
 // Does no corner of a closed body lie more than `tolerance` (a length) in front of one of its facets? False for bodies of more than
 // 1000 facets, which are not checked.
 [[nodiscard]] bool convex_within(const Facets& facets, double tolerance);
