@@ -171,10 +171,25 @@ HALFLIGHT_INLINE void Transport::limit_row_sums(std::vector<double> rows, double
     return power;
   };
   constexpr Balance only_less{{0.0, 1.0}};
+  // What a cluster of lamps sends is spread over its faces, whichever way they look: they count as one.
+  const auto join_lamps = [&] {
+    std::vector<double> power(rows.size(), 0.0), area(rows.size(), 0.0);
+    for (std::size_t i = 0; i < lamp_cluster_.size(); ++i) {
+      if (lamp_cluster_[i] == no_node || !(*hierarchy_)[i].leaf()) { continue; }
+      power[lamp_cluster_[i]] += area_[i] * rows[i];
+      area[lamp_cluster_[i]] += area_[i];
+    }
+    for (std::size_t i = 0; i < lamp_cluster_.size(); ++i) {
+      const std::uint32_t lamp = lamp_cluster_[i];
+      if (lamp != no_node && (*hierarchy_)[i].leaf() && area[lamp] > 0.0) { rows[i] = power[lamp] / area[lamp]; }
+    }
+  };
+  join_lamps();
   if (!lamps_.empty() && parts_.size() > 1) {
     const std::vector<double> of_lamps = row_sums(std::size_t{0});
     scale_parts(1, wanted([&](std::size_t i) { return lamps_[i] ? 0.0 : std::max(least_left, 1.0 - of_lamps[i]); }), only_less);
     rows = row_sums();
+    join_lamps();
   }
   scale_parts(0, wanted([](std::size_t) { return 1.0; }), only_less);
 }
