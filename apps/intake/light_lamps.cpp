@@ -289,11 +289,11 @@ class LampMaker {
     if (suns_ > 0) { note(counted(suns_, "directional light became a sun", "directional lights became suns") + " half a degree wide"); }
     if (spots_ > 0) {
       note(counted(spots_, "spot light became a small lamp in a black cup", "spot lights became small lamps in black cups"));
-      if (spots_differ_ > 0.005) {
+      if (spots_differ_ > 0.005) {  // that is told in whole per cent
         std::ostringstream text;
         text << std::round(100.0 * spots_differ_);
         warn(counted(spots_, "spot light sends", "spot lights send") +
-             " as much light as in the file, but fade from the axis as a round lamp in a black cup does: by " + text.str() +
+             " as much light as in the file, which falls from the axis as that of a round lamp in a black cup: by " + text.str() +
              " % (RMS) otherwise");
       }
     }
@@ -311,7 +311,7 @@ class LampMaker {
   raycast::Box lit_;  // of what is lit: without sky
   double size_ = 0.0, widest_ = 0.0;
   std::optional<std::uint32_t> blind_;  // the material
-  double spots_differ_ = 0.0;
+  double spots_differ_ = 0.0;           // the largest SpotCup::difference
   std::map<std::array<double, 4>, SpotCup> cups_;
   std::size_t balls_ = 0, spots_ = 0, suns_ = 0, left_out_ = 0, fade_otherwise_ = 0;
 };

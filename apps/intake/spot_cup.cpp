@@ -85,15 +85,15 @@ double seen_through(const SpotCup& cup, double angle) {
 
 SpotCup spot_cup(const ModelLight& given) {
   constexpr double degree = std::numbers::pi / 180.0, narrowest = degree, widest = 90.0 * degree, widest_middle = 88.0 * degree;
-  constexpr double fits = 0.95;   // of the opening's radius: of the ball's
-  constexpr double beyond = 1.1;  // the cone and where the light ends: as far as light may fall
+  constexpr double fits = 0.95;                   // of the opening's radius: of the ball's
+  constexpr double beyond = 1.1, farther = 0.02;  // light falls to so much of where it ends, but no more radians beyond that
   constexpr double sharpest = 0.025, softest = 0.65;
   constexpr int widths = 24, halvings = 14;
   ModelLight light = given;
   light.outer = std::clamp(light.outer, narrowest, widest);
   double end = light.outer;  // a high power of the cosine ends long before the cone
   while (end > narrowest && spot_intensity(light, 0.9 * end) < 1e-3) { end *= 0.9; }
-  const double reach = std::min(beyond * end, widest);
+  const double reach = std::min({beyond * end, end + farther, widest});
   Profile wanted{reach};
   wanted.fill([&](double angle) { return spot_intensity(light, angle); });
   const double flux = wanted.flux();

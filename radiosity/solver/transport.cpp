@@ -171,17 +171,16 @@ HALFLIGHT_INLINE void Transport::limit_row_sums(std::vector<double> rows, double
     return power;
   };
   constexpr Balance only_less{{0.0, 1.0}};
-  // What a cluster of lamps sends is spread over its faces, whichever way they look: they count as one.
   const auto join_lamps = [&] {
     std::vector<double> power(rows.size(), 0.0), area(rows.size(), 0.0);
-    for (std::size_t i = 0; i < lamp_cluster_.size(); ++i) {
-      if (lamp_cluster_[i] == no_node || !(*hierarchy_)[i].leaf()) { continue; }
-      power[lamp_cluster_[i]] += area_[i] * rows[i];
-      area[lamp_cluster_[i]] += area_[i];
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      if (!(*hierarchy_)[i].leaf()) { continue; }
+      power[counts_as(i)] += area_[i] * rows[i];
+      area[counts_as(i)] += area_[i];
     }
-    for (std::size_t i = 0; i < lamp_cluster_.size(); ++i) {
-      const std::uint32_t lamp = lamp_cluster_[i];
-      if (lamp != no_node && (*hierarchy_)[i].leaf() && area[lamp] > 0.0) { rows[i] = power[lamp] / area[lamp]; }
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const bool joined = (*hierarchy_)[i].leaf() && counts_as(i) != i && area[counts_as(i)] > 0.0;
+      if (joined) { rows[i] = power[counts_as(i)] / area[counts_as(i)]; }
     }
   };
   join_lamps();
@@ -202,17 +201,15 @@ HALFLIGHT_INLINE void Transport::scale_lamps() {
     const std::vector<double> rows = row_sums(part);
     for (std::size_t i = 0; i < rows.size(); ++i) { of_others[i] += rows[i]; }
   }
-  std::vector<double> power(of_lamps.size(), 0.0);  // of each lamp, stored at the leaf or at the cluster
-  std::vector<double> wanted(power);
-  const auto lamp = [&](std::size_t i) { return lamp_cluster_[i] == no_node ? i : lamp_cluster_[i]; };
+  std::vector<double> power(of_lamps.size(), 0.0), wanted(power);  // of each lamp, stored at the leaf or at the cluster
   for (std::size_t i = 0; i < of_lamps.size(); ++i) {
     if (!lamps_[i] || !(*hierarchy_)[i].leaf()) { continue; }
-    power[lamp(i)] += area_[i] * of_lamps[i];
-    wanted[lamp(i)] += area_[i] * (closed(i) ? 1.0 - of_others[i] : of_lamps[i]);
+    power[counts_as(i)] += area_[i] * of_lamps[i];
+    wanted[counts_as(i)] += area_[i] * (closed(i) ? 1.0 - of_others[i] : of_lamps[i]);
   }
   for (std::size_t i = 0; i < of_lamps.size(); ++i) {
     if (!lamps_[i]) { continue; }
-    const double is = power[lamp(i)], be = wanted[lamp(i)], scale = is > 0.0 && be > 0.0 ? std::clamp(be / is, 0.5, 2.0) : 1.0;
+    const double is = power[counts_as(i)], be = wanted[counts_as(i)], scale = is > 0.0 && be > 0.0 ? std::clamp(be / is, 0.5, 2.0) : 1.0;
     parts_[0].scale[i] *= scale;
     const double row = scale * of_lamps[i] + of_others[i];
     if (lamp_cluster_[i] != no_node && (*hierarchy_)[i].leaf() && row > 0.0 && closed(i)) { area_[i] *= row; }
@@ -260,15 +257,14 @@ HALFLIGHT_INLINE std::vector<double> Transport::left_by_lamps() {
 }
 
 HALFLIGHT_INLINE double Transport::amiss(const std::vector<double>& rows) const {
-  std::vector<double> power(rows.size(), 0.0), area(rows.size(), 0.0);  // the faces of a cluster of lamps count as one
+  std::vector<double> power(rows.size(), 0.0), area(rows.size(), 0.0);
   double total = 0.0;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     if (!(*hierarchy_)[i].leaf()) { continue; }
     total += area_[i];
     if (!closed(i) || !(rows[i] > 0.0)) { continue; }
-    const std::size_t at = lamp_cluster_.empty() || lamp_cluster_[i] == no_node ? i : lamp_cluster_[i];
-    power[at] += area_[i] * rows[i];
-    area[at] += area_[i];
+    power[counts_as(i)] += area_[i] * rows[i];
+    area[counts_as(i)] += area_[i];
   }
   double square = 0.0;
   for (std::size_t i = 0; i < rows.size(); ++i) {

@@ -62,6 +62,10 @@ class Transport {
 
   // Should the form factors of the node sum to 1?
   [[nodiscard]] bool closed(std::size_t i) const { return closed_.empty() || closed_[i]; }
+  // What a cluster of lamps sends is spread over its faces, whichever way they look, so these count as one node: the cluster.
+  [[nodiscard]] std::size_t counts_as(std::size_t i) const {
+    return lamp_cluster_.empty() || lamp_cluster_[i] == no_node ? i : lamp_cluster_[i];
+  }
 
   // Adds sampled links between patches; to be called once. They must outlive the operator, which arranges them.
   void add_sampled(Links& links);

@@ -254,7 +254,7 @@ TEST_CASE("a spot light: what falls on the floor, over all directions, is what t
       const glm::dvec3 way = light.at - p;
       return light.intensity * way.z / std::pow(glm::length(way), 3.0);
     };
-    const glm::dvec3 axis = glm::normalize(light.direction);
+    const glm::dvec3 axis = glm::normalize(light.direction), middle = light.at - light.at.z / axis.z * axis;
     const glm::dvec3 u = glm::normalize(glm::cross(axis, {1.0, 0.2, 0.1})), v = glm::cross(axis, u);
     const std::array fades{apps::ModelLight::Fade::squared_cosine, apps::ModelLight::Fade::power_of_cosine,
                            apps::ModelLight::Fade::by_angle};
@@ -268,6 +268,8 @@ TEST_CASE("a spot light: what falls on the floor, over all directions, is what t
       in_file.power = 128.0 * light.drop_off;
       Floor floor(files[f]);
       CAPTURE(round, f, light.at.z, axis.x, axis.y, light.inner, light.outer, light.drop_off);
+      CHECK(noted(files[f].warnings, "1 spot light sends as much light as in the file") == (apps::spot_cup(in_file).difference > 0.005));
+      CHECK(floor.irradiance(middle) == test::Approx(full(middle)).epsilon(0.02));
       double found = 0.0, expected = 0.0, off = 0.0, squares = 0.0;
       constexpr int directions = 400;
       bool all_meet_floor = true;
@@ -280,6 +282,8 @@ TEST_CASE("a spot light: what falls on the floor, over all directions, is what t
           all_meet_floor = false;
           continue;
         }
+        // The inner cone is lit in full; VRML 1.0 has none, and that of VRML 2.0 has an edge where the light begins to fall.
+        if (f == 0 && std::acos(cosine) < 0.95 * light.inner) { CHECK(floor.irradiance(p) == test::Approx(full(p)).epsilon(0.02)); }
         const double share = floor.irradiance(p) / full(p), given = apps::spot_intensity(in_file, std::acos(cosine));
         found += share;
         expected += given;
@@ -294,7 +298,7 @@ TEST_CASE("a spot light: what falls on the floor, over all directions, is what t
         const double angle = std::acos(std::clamp(glm::dot(way, axis), -1.0, 1.0));
         CAPTURE(p.x, p.y, angle);
         CHECK(floor.irradiance(p) <= 1.02 * full(p));
-        if (angle > 1.1 * light.outer + 0.02) {
+        if (angle > light.outer + 0.05) {
           ++beyond;
           CHECK(floor.irradiance(p) <= 1e-3 * full(p));
         }

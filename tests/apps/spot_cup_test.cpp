@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Spots: the cup around a lamp sends what the file says, whichever way its light fades from the axis.
-#include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <numbers>
 #include <random>
-
-#include <raycast/objects/sphere.hpp>
 
 #include "apps/intake/model.hpp"
 #include "apps/intake/spot_cup.hpp"
@@ -112,6 +108,8 @@ TEST_CASE("spots: a cup sends as much light as the file says, and from inner to 
       const double of_all = flux([&](double angle) { return std::pow(wanted(angle), 2.0); });
       CHECK(cup.difference == test::Approx(std::sqrt(squares / of_all)).epsilon(0.2).margin(0.01));
       if (fade == Fade::squared_cosine) { CHECK(cup.difference < (inner < 0.9 * outer ? 0.05 : 0.1)); }  // no edge is sharp
+      CHECK(seen(0.0) == 1.0);
+      CHECK(seen(outer + 0.021) < 1e-3);
       CHECK(cup.rim > 1.0);
       CHECK(cup.depth > 0.0);
     }
