@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <memory>
 #include <numbers>
+#include <optional>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -19,10 +20,10 @@
 namespace apps {
 namespace {
 
-// Intensities at equal steps of the angle from the axis.
+// Intensities by the angle from the axis up to `reach`, most of them beyond `even`, up to where they hardly change.
 class Profile {
  public:
-  explicit Profile(double reach) : step_(reach / static_cast<double>(size)) {}
+  Profile(double even, double reach) : even_(even), reach_(reach) {}
 
   template <class Intensity>
   void fill(const Intensity& intensity) {
@@ -31,24 +32,31 @@ class Profile {
   // Over all directions, up to a constant factor.
   [[nodiscard]] double flux() const {
     double sum = 0.0;
-    for (std::size_t i = 0; i < size; ++i) { sum += std::sin(angle(i)) * values_[i]; }
+    for (std::size_t i = 0; i < size; ++i) { sum += weight(i) * values_[i]; }
     return sum;
   }
   [[nodiscard]] double relative_difference(const Profile& other) const {
     double squares = 0.0, all = 0.0;
     for (std::size_t i = 0; i < size; ++i) {
       const double off = values_[i] - other.values_[i];
-      squares += std::sin(angle(i)) * off * off;
-      all += std::sin(angle(i)) * values_[i] * values_[i];
+      squares += weight(i) * off * off;
+      all += weight(i) * values_[i] * values_[i];
     }
     return all > 0.0 ? std::sqrt(squares / all) : 0.0;
   }
 
  private:
-  static constexpr std::size_t size = 128;
-  [[nodiscard]] double angle(std::size_t i) const { return (static_cast<double>(i) + 0.5) * step_; }
+  static constexpr std::size_t size = 160, size_of_even = 32;
+  [[nodiscard]] double step(std::size_t i) const {
+    return i < size_of_even ? even_ / static_cast<double>(size_of_even) : (reach_ - even_) / static_cast<double>(size - size_of_even);
+  }
+  [[nodiscard]] double angle(std::size_t i) const {
+    const double middle = static_cast<double>(i < size_of_even ? i : i - size_of_even) + 0.5;
+    return (i < size_of_even ? 0.0 : even_) + middle * step(i);
+  }
+  [[nodiscard]] double weight(std::size_t i) const { return std::sin(angle(i)) * step(i); }
 
-  double step_;
+  double even_, reach_;
   std::array<double, size> values_{};
 };
 
@@ -87,38 +95,58 @@ SpotCup spot_cup(const ModelLight& given) {
   constexpr double degree = std::numbers::pi / 180.0, narrowest = degree, widest = 90.0 * degree, widest_middle = 88.0 * degree;
   constexpr double fits = 0.95;                   // of the opening's radius: of the ball's
   constexpr double beyond = 1.1, farther = 0.02;  // light falls to so much of where it ends, but no more radians beyond that
-  constexpr double sharpest = 0.025, softest = 0.65;
-  constexpr int widths = 24, halvings = 14;
+  constexpr double least_full = 0.97;             // of the inner cone, in which the intensity has no edge
+  constexpr double sharpest = 0.025, softest = 0.65, even_part = 0.9;
+  constexpr int widths = 20, refinements = 4, halvings = 14;
   ModelLight light = given;
   light.outer = std::clamp(light.outer, narrowest, widest);
+  light.inner = std::clamp(light.inner, 0.0, light.outer);
   double end = light.outer;  // a high power of the cosine ends long before the cone
   while (end > narrowest && spot_intensity(light, 0.9 * end) < 1e-3) { end *= 0.9; }
   const double reach = std::min({beyond * end, end + farther, widest});
-  Profile wanted{reach};
+  const double even = light.fade == ModelLight::Fade::power_of_cosine && light.power > 0.0 ? 0.0 : even_part * std::min(light.inner, end);
+  Profile wanted{even, reach};
   wanted.fill([&](double angle) { return spot_intensity(light, angle); });
   const double flux = wanted.flux();
-  SpotCup best;
-  best.difference = 1e300;
-  for (int i = 0; i < widths; ++i) {
-    const double half_width = end * sharpest * std::pow(softest / sharpest, i / (widths - 1.0));
+  const double narrow = std::min(sharpest * end, 0.5 * farther);
+  // The cup of this half width of the edge that sends as much light; nothing if none does.
+  const auto fitted = [&](double half_width) -> std::optional<SpotCup> {
     // The wider the opening, the more light.
     double low = std::asin(std::min(1.0, std::sin(half_width) / fits)), high = std::min(reach - half_width, widest_middle);
-    Profile made{reach};
+    Profile made{even, reach};
     const auto try_middle = [&](double middle) {
       const SpotCup tried = cup(middle, half_width);
       made.fill([&](double angle) { return seen_through(tried, angle); });
       return made.flux();
     };
-    if (!(low < high) || try_middle(low) > flux || (i > 0 && try_middle(high) < flux)) { break; }
+    if (!(low < high) || try_middle(low) > flux || (half_width > narrow && try_middle(high) < flux)) { return std::nullopt; }
     for (int k = 0; k < halvings; ++k) {
       const double middle = 0.5 * (low + high);
       (try_middle(middle) < flux ? low : high) = middle;
     }
     const double middle = 0.5 * (low + high);
+    if (light.fade == ModelLight::Fade::squared_cosine && middle - half_width < least_full * light.inner) { return std::nullopt; }
     try_middle(middle);
     SpotCup found = cup(middle, half_width);
     found.difference = wanted.relative_difference(made);
-    if (found.difference < best.difference) { best = found; }
+    return found;
+  };
+  SpotCup best;
+  best.difference = 1e300;
+  double best_width = narrow;
+  const auto take_if_better = [&](double half_width) {
+    const std::optional<SpotCup> found = fitted(half_width);
+    if (!found || !(found->difference < best.difference)) { return; }
+    best = *found;
+    best_width = half_width;
+  };
+  double ratio = std::pow(softest * end / narrow, 1.0 / widths);
+  for (int i = 0; i <= widths; ++i) { take_if_better(narrow * std::pow(ratio, i)); }
+  for (int i = 0; i < refinements; ++i) {
+    ratio = std::sqrt(ratio);
+    const double middle = best_width;
+    take_if_better(middle * ratio);
+    if (middle > narrow) { take_if_better(std::max(narrow, middle / ratio)); }
   }
   return best;
 }

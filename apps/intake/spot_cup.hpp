@@ -31,8 +31,9 @@ struct SpotCup {
 [[nodiscard]] double seen_through(const SpotCup& cup, double angle);
 
 // Sends as much light as the spot of the file (to 1e-3), with the least RMS difference of intensities. Cones wider than a half-space are
-// cut off there, narrower ones than a degree made as wide, and an edge takes a twentieth of the cone at least. No light falls more than a
-// tenth of the cone, or .02 radians, beyond it.
+// cut off there, narrower ones than a degree made as wide, and an edge takes a twentieth of the cone, or .02 radians, at least. No light
+// falls farther beyond the cone than a tenth of it, or .02 radians; in the inner cone of glTF, from whose edge on the light falls steeply,
+// the intensity is full up to .97 of it.
 [[nodiscard]] SpotCup spot_cup(const ModelLight& light);
 
 // The cup around a ball at a place, which shines in a direction of any length: a prism of 24 sides with a recess, the opening as large as
