@@ -152,6 +152,7 @@ HALFLIGHT_INLINE void LampExchange::see(Result& result, std::span<const Point> p
   const Patch& patch = scene_.patches[to];
   const PatchEnd ground = patch_end(scene_, exposure_, to);
   WeighedSegments first, further;
+  const std::uint32_t deciding = deciding_rounds(rounds);
   std::uint32_t decisive = 0;
   std::uint32_t hint = raycast::no_shape;
   for (std::uint32_t round = 0; round < rounds; ++round) {
@@ -171,15 +172,15 @@ HALFLIGHT_INLINE void LampExchange::see(Result& result, std::span<const Point> p
       segments.set(i, {x, y - x}, ground.object, scene_.hierarchy[face].object, ground.sheet, scene_.sheet(face));
     }
     const std::uint32_t occluded = scene_.objects.occluded16(segments, hint);
-    WeighedSegments& sum = round == 0 ? first : further;
+    WeighedSegments& sum = round < deciding ? first : further;
     for (std::uint32_t i = 0; i < 16; ++i) {
       if (!(weights[i] > 0.0)) { continue; }
       ++result.rays.cast;
-      decisive += round == 0 ? 1 : 0;
+      decisive += round < deciding ? 1 : 0;
       sum.total += weights[i];
       if ((occluded >> i & 1u) == 0) { sum.arrived += weights[i]; }
     }
-    if (round == 0 && (first.arrived == first.total || first.arrived == 0.0)) { break; }
+    if (round + 1 == deciding && (first.arrived == first.total || first.arrived == 0.0)) { break; }
   }
   if (further.total > 0.0) {
     result.fraction = share_of_mixed(first, further, decisive);

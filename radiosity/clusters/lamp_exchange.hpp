@@ -40,8 +40,7 @@ class LampExchange {
     double fraction = 1.0;  // share of `sent` that is not blocked
     RayCount rays;
   };
-  // Casts rounds of 16 segments: a single round if all or none arrive, otherwise `rounds` (share_of_mixed()); with 0 rounds occlusion is
-  // not sampled.
+  // Casts rounds of 16 segments as visibility() does; with 0 rounds occlusion is not sampled.
   [[nodiscard]] Result operator()(std::uint32_t lamp, std::uint32_t patch, std::uint32_t rounds, Random random) const;
 
   // Sets the exchange and the shapes of a link between a cluster of lamps and a patch.

@@ -109,7 +109,7 @@ HALFLIGHT_INLINE RayCount LinkEvaluator::operator()(Link& link, const raycast::O
   const std::uint64_t key = key_of(link);
   const PatchPair pair = ends(link);
   const std::optional<VisibilityEstimate> measured = measured_visibility(link);
-  const VisibilityEstimate seen = measured ? *measured : visibility(scene_, list, pair, patch_rounds, Random{seed_, key});
+  const VisibilityEstimate seen = measured ? *measured : visibility(scene_, list, pair, rounds_, Random{seed_, key});
   // On curved objects the area of the finer leaves counts, too, because the patch passes light on to them with its own kernel.
   const double share = exposed_share(pair.p, area_p, q) * exposed_share(pair.q, area_q, p);
   link.exchange = static_cast<float>(unoccluded * seen.fraction * share);
@@ -134,7 +134,7 @@ HALFLIGHT_INLINE RayCount LinkEvaluator::operator()(Link& link, const raycast::O
 // The total projected area of the lamp and the gradients over the patch are accurate. The distribution of the returning light over the
 // lamp's faces comes from the lattice of directions, whose errors are equal for all light from about one direction, so they add up.
 HALFLIGHT_INLINE RayCount LinkEvaluator::evaluate_lamp_link(Link& link, LinkVariation* variation, Doubt* doubt) const {
-  const LampExchange::Result seen = lamps_->evaluate(link, patch_rounds, Random{seed_, key_of(link)});
+  const LampExchange::Result seen = lamps_->evaluate(link, rounds_, Random{seed_, key_of(link)});
   const bool p_shines = scene_.hierarchy[link.p].is_cluster();
   VisibilityEstimate arrives;
   arrives.fraction = seen.fraction;

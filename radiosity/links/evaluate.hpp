@@ -124,6 +124,9 @@ class LinkEvaluator {
     return other;
   }
 
+  // Casts this many rounds of segments for each partly blocked link between patches, or with a cluster of lamps.
+  void cast_rounds(std::uint32_t rounds) { rounds_ = rounds; }
+
   // Casts no segments where `light` has measured which share of a lamp's light arrives. `light` must outlive the evaluator.
   void use(const LightMeshing& light) { light_ = &light; }
 
@@ -140,7 +143,7 @@ class LinkEvaluator {
   // Casts the segments of a link between patches with exposed ends as if nothing were known about blockers; appends them to `seen` if
   // given.
   [[nodiscard]] VisibilityEstimate segments(const Link& link, std::vector<CastSegment>* seen = nullptr) const {
-    return visibility(scene_, {}, ends(link), patch_rounds, Random{seed_, key_of(link)}, seen);
+    return visibility(scene_, {}, ends(link), rounds_, Random{seed_, key_of(link)}, seen);
   }
 
  private:
@@ -176,6 +179,7 @@ class LinkEvaluator {
   const Exposure* exposure_;
   ClusterSampler sampler_;
   std::uint64_t seed_;
+  std::uint32_t rounds_ = patch_rounds;
   const LightMeshing* light_ = nullptr;
   const LampExchange* lamps_ = nullptr;
 };

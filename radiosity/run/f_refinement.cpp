@@ -45,6 +45,8 @@ namespace detail {
 // this limit, by a third.
 inline constexpr double most_contrast = 120.0;
 
+HALFLIGHT_INLINE bool lit_through_openings(const Importance& importance) { return importance.contrast() >= most_contrast; }
+
 // The importance of nodes for the picture of the camera, if the picture is all that counts.
 [[nodiscard]] HALFLIGHT_INLINE Importance importance_of_view(const Run& run) {
   const DiscreteScene& scene = run.scene;
@@ -97,8 +99,7 @@ HALFLIGHT_INLINE void refine_by_forms(Run& run) {
     audit.reflected_share = reflected_light(run.scene, *run.tracer);
     run.importance = importance_of_view(run);
     const bool beside_lamps = *audit.reflected_share > least_share_beside_lamps;
-    const bool through_openings = run.importance.contrast() >= most_contrast;
-    if (run.rays.few && (beside_lamps || through_openings) && !run.clusters.build) { run.rays = RayChoice{true, {}}; }
+    if (run.rays.few && (beside_lamps || lit_through_openings(run.importance)) && !run.clusters.build) { run.rays = RayChoice{true, {}}; }
   }
   audit.lit_part = lit_part(run);
   run.refined = refined_by_forms(run);

@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 
+#include <radiosity/oracle/importance.hpp>
 #include <radiosity/result/outcome.hpp>
 #include <radiosity/run/run.hpp>
 
@@ -25,6 +26,9 @@ void refine_by_forms(Run& run);
 // decreases with the square root of n: a picture with 49 lamps 2 mm below the ceiling, once 23 % too bright, is off by 6 %.
 // It is 1 if links chosen by form factor carry all light, because these ask for the smallest patches everywhere.
 [[nodiscard]] double lit_part(const Run& run);
+
+// Is the picture of the camera so much darker than the scene that its light must enter at a few places?
+[[nodiscard]] bool lit_through_openings(const Importance& importance);
 
 // From here on the run cannot be stopped, is marked as interrupted, and refines the rest with at least these thresholds.
 inline constexpr double soon_made = 0.04;  // epsilon

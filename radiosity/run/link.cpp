@@ -28,6 +28,7 @@
 #include <radiosity/run/stages.hpp>
 #include <radiosity/support/memory.hpp>
 #include <radiosity/visibility/leaf_locator.hpp>
+#include <radiosity/visibility/visibility.hpp>
 
 namespace radiosity {
 
@@ -76,6 +77,15 @@ namespace detail {
   return run.refined.too_large == 0;
 }
 
+// Rounds of segments for each partly blocked link. Where what the camera sees is lit through small openings, one segment in a thousand from
+// a lamp may arrive, and of 16 none tells nothing: up to 256 are cast before a link counts as dark, as many as make four million in all.
+[[nodiscard]] HALFLIGHT_INLINE std::uint32_t visibility_rounds(const Run& run, std::size_t links) {
+  constexpr std::size_t most_decide = 16, most_segments = std::size_t{1} << 22;
+  if (!lit_through_openings(run.importance)) { return patch_rounds; }
+  const std::size_t decide = most_segments / (segments_per_round * std::max<std::size_t>(links, 1));
+  return patch_rounds * static_cast<std::uint32_t>(std::clamp(decide, std::size_t{1}, most_decide));
+}
+
 // Evaluates the links chosen by refinement.
 HALFLIGHT_INLINE void link_by_forms(Run& run) {
   DiscreteScene& scene = run.scene;
@@ -88,6 +98,7 @@ HALFLIGHT_INLINE void link_by_forms(Run& run) {
   }
   const NodePairs pairs = std::exchange(run.refined.linked, {});
   const bool split = may_split_links(run, pairs.size());
+  scene.evaluator.cast_rounds(visibility_rounds(run, pairs.size()));
   run.evaluated = make_links({scene.evaluator, run.refined.occluders, scene.threads, scene.control}, pairs, run.solution.links,
                              split ? &run.doubts : nullptr);
 }

@@ -231,6 +231,7 @@ HALFLIGHT_INLINE VisibilityEstimate visibility(const SceneView& scene, const ray
   }
   const raycast::OccluderList known = scene.plan.shortcuts ? list : raycast::OccluderList{};
   WeighedSegments first, further;  // of the rounds up to the one that could have been the last, and of those after it
+  const std::uint32_t deciding = deciding_rounds(rounds);
   std::uint64_t decisive = 0;
   std::uint32_t blocked = 0;
   brep::SmallList<RoundSeen, 16> rounds_seen;
@@ -253,7 +254,7 @@ HALFLIGHT_INLINE VisibilityEstimate visibility(const SceneView& scene, const ray
     blocked += static_cast<std::uint32_t>(std::popcount(occluded));
     rounds_seen.push_back({cast, occluded, shift});
     const bool agree = blocked == 0 || blocked == estimate.rays.cast;
-    if (decisive > 0 || estimate.rays.cast < segments_per_round / 2) { continue; }
+    if (decisive > 0 || round + 1 < deciding || estimate.rays.cast < std::uint64_t{deciding} * segments_per_round / 2) { continue; }
     if (agree) { break; }
     decisive = estimate.rays.cast;
   }

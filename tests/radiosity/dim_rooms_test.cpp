@@ -117,9 +117,9 @@ double comes_through(const TwoRooms& rooms, Random& random) {
 
 }  // namespace
 
-// By links, with one visible fraction each, the light of a room was 14 to 26 % off (RMS). By rays it is 5 to 9 %, of which some 2 % goes to
-// the sides of the hole and back through it. The worst room of eight is left out: where the lamp shines straight through the hole, that part
-// goes by links still, and in one room of a hundred nearly half of the light is lost so.
+// By links, with one visible fraction each, the light of a room was 14 to 26 % off (RMS). By rays it is 2 to 8 %, of which some 2 % goes to
+// the sides of the hole and back through it. What the lamp sends straight through the hole goes by links still, of 256 segments: with 16, one
+// room in fifty got half or twice its light. The worst room of eight is left out: through the narrowest holes there are few rays.
 TEST_CASE("a dim room that is lit through a small hole alone gets what comes through", "[accuracy]") {
   const auto seed = std::random_device{}();
   INFO("seed " << seed);
