@@ -2,10 +2,10 @@
 #pragma once
 
 // The exchange between a cluster of emitting faces (make_lamp_clusters()) and a patch, of which the patch gets the light of the faces when
-// it is multiplied with their mean exitance: a face counts as its area times its exitance relative to that mean. The cluster is represented by up to 256 points:
-// the Gauss points of few faces, the centres of more faces, or 256 faces drawn evenly by light if there are many. The unoccluded exchange,
-// and its gradient over the patch, is the sum over these points and the Gauss points of the patch. Occlusion is sampled by segments whose
-// start points are drawn in proportion to the light that each sends.
+// it is multiplied with their mean exitance: a face counts as its area times its exitance relative to that mean. The cluster is
+// represented by up to 256 points: the Gauss points of few faces, the centres of more faces, or 256 faces drawn evenly by light if there
+// are many. The unoccluded exchange, and its gradient over the patch, is the sum over these points and the Gauss points of the patch.
+// Occlusion is sampled by segments whose start points are drawn in proportion to the light that each sends.
 //
 // A cluster and a patch that are linked lie well apart (lamp_oracle.hpp), so the sum is within some 1 % of the integral.
 

@@ -55,8 +55,8 @@ namespace radiosity {
   return result;
 }
 
-// The bounds of at least nine tenths of the objects, if all others lie ten times as far from the middle of most as these reach: files of other
-// programs often hold some forgotten parts, kilometres away. Of all objects, if there are no such strays. Time: n log n.
+// The bounds of at least nine tenths of the objects, if all others lie ten times as far from the middle of most as these reach: files of
+// other programs often hold some forgotten parts, kilometres away. Of all objects, if there are no such strays. Time: n log n.
 [[nodiscard]] inline raycast::Box bounds_without_strays(const Scene& scene) {
   constexpr double far = 10.0;
   std::vector<raycast::Box> boxes;

@@ -118,8 +118,8 @@ double comes_through(const TwoRooms& rooms, Random& random) {
 }  // namespace
 
 // By links, with one visible fraction each, the light of a room was 14 to 26 % off (RMS). By rays it is 2 to 8 %, of which some 2 % goes to
-// the sides of the hole and back through it. What the lamp sends straight through the hole goes by links still, of 256 segments: with 16, one
-// room in fifty got half or twice its light. The worst room of eight is left out: through the narrowest holes there are few rays.
+// the sides of the hole and back through it. What the lamp sends straight through the hole goes by links still, of 256 segments: with 16,
+// one room in fifty got half or twice its light. The worst room of eight is left out: few rays meet the narrowest holes.
 TEST_CASE("a dim room that is lit through a small hole alone gets what comes through", "[accuracy]") {
   const auto seed = std::random_device{}();
   INFO("seed " << seed);

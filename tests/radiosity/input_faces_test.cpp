@@ -183,8 +183,8 @@ TEST_CASE("input faces: a face that is cut at a wall falls into parts, so that n
 }
 
 // A closed hut of sheets, turned and anywhere on a ground up to seven times as wide. A patch that reaches under a wall brings light in: a
-// tenth of the lamp's at its foot. No patch does, so in the hut it is dark, but for what slips through between two sheets by rounding (found:
-// up to 2.4e-6 of it).
+// tenth of the lamp's at its foot. No patch does, so in the hut it is dark, but for what slips through between two sheets by rounding
+// (found: up to 2.4e-6 of it).
 TEST_CASE("input faces: on a wide ground the inside of a closed hut is dark") {
   const auto seed = static_cast<std::uint64_t>(GENERATE(take(6, random(1, 1'000'000))));
   radiosity::Random random{seed, 0};

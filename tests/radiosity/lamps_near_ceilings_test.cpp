@@ -71,8 +71,8 @@ TEST_CASE("a wide lamp close under a ceiling lights a floor as one that lies on 
     };
     const double lying = floor_light(0.0), hung = floor_light(gap);
     CAPTURE(round, size.x, size.y, size.z, extent.x, extent.y, corner.x, corner.y, gap, lying, hung);
-    // What falls into the gap between ceiling and lamp meets the black back of the lamp and is lost. The opening of the gap gets about half of
-    // the mean irradiance of what absorbs (.35 to .76 was found).
+    // What falls into the gap between ceiling and lamp meets the black back of the lamp and is lost. The opening of the gap gets about half
+    // of the mean irradiance of what absorbs (.35 to .76 was found).
     const double lamp_area = extent.x * extent.y, walls = 2.0 * (size.x * size.y + size.y * size.z + size.z * size.x) - lamp_area;
     const double lost = 0.5 * 2.0 * (extent.x + extent.y) * gap / ((1.0 - 0.8) * walls + lamp_area);
     CHECK(hung == Approx(lying * (1.0 - lost)).epsilon(0.002));

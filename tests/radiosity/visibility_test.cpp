@@ -101,7 +101,7 @@ TEST_CASE("rounds of segments give the visible share on average, through narrow 
     // draws. Where the first round alone told what is wholly hidden or visible, it was 60 to 90 % for shares up to 0.02.
     CHECK(std::abs(four.value - exact) < 0.35 * std::min(exact, 1.0 - exact) + 4.5 * std::hypot(four.error, 1e-4));
     CHECK(four.error < 1.3 * one.error + 1e-4);  // more rounds are not worse; of the narrowest slits some ten draws tell the errors
-    // With 16 times as many segments the noise of a draw is less than half of it, so that of the mean of a quarter of the draws is less, too.
+    // With 16 times as many segments the noise of a draw is less than half, so that of the mean of a quarter of the draws is less, too.
     CHECK(std::abs(many.value - exact) < 0.35 * std::min(exact, 1.0 - exact) + 4.5 * std::hypot(many.error, 1e-4));
     CHECK(many.error < four.error + 1e-4);
   }
