@@ -6,19 +6,25 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <limits>
 #include <numbers>
 #include <span>
+#include <utility>
 #include <vector>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
 #include <brep/inline.hpp>
 
+#include <raycast/box.hpp>
 #include <raycast/bundle.hpp>
 #include <raycast/scene.hpp>
 
 #include <radiosity/geometry/direction_lattice.hpp>
+#include <radiosity/geometry/hilbert_curve.hpp>
 #include <radiosity/hierarchy/hierarchy.hpp>
 #include <radiosity/hierarchy/links.hpp>
 #include <radiosity/hierarchy/patch.hpp>
@@ -72,19 +78,63 @@ HALFLIGHT_INLINE void LampExchange::add_points(const std::vector<std::uint32_t>&
     }
     return;
   }
-  const auto add = [&](std::uint32_t f, double of_area) {
-    points_.push_back({exposure_ != nullptr ? exposure_->centroid[f] : scene_.patches[f].centroid, scene_.patches[f].normal, of_area, f});
-  };
   if (faces.size() <= most_points) {
-    for (const std::uint32_t f : faces) { add(f, relative(f) * area(f)); }
+    for (const std::uint32_t f : faces) { points_.push_back({centroid(f), scene_.patches[f].normal, relative(f) * area(f), f}); }
     return;
   }
-  double until = 0.0;
-  std::size_t next = 0;
-  for (const std::uint32_t f : faces) {  // order of the tree: consecutive faces are near each other
-    until += relative(f) * area(f);
-    for (; next < most_points && (static_cast<double>(next) + 0.5) * all < until * most_points; ++next) { add(f, all / most_points); }
+  add_runs(faces, relative);
+}
+
+// Faces that look about the same way, in the order of Hilbert's curve through their centroids, so that consecutive ones are near each other,
+// in runs of equal light. A run that looks one way is a point at its centroid with its mean normal and all of its area, which in the mean
+// over all directions shows as much as its faces do. Another is a face in its middle.
+HALFLIGHT_INLINE void LampExchange::add_runs(const std::vector<std::uint32_t>& faces,
+                                             const std::function<double(std::uint32_t)>& relative) {
+  struct Face {
+    std::uint32_t face = no_node, way = 0;  // way: of the normal, 0...5
+    std::uint64_t place = 0;
+    double light = 0.0;
+  };
+  raycast::Box box;
+  for (const std::uint32_t f : faces) { box.extend(centroid(f)); }
+  const double width = std::max({box.size().x, box.size().y, box.size().z, std::numeric_limits<double>::min()});
+  std::vector<Face> sorted;
+  double all = 0.0;
+  for (const std::uint32_t f : faces) {
+    const glm::dvec3& n = scene_.patches[f].normal;
+    const glm::dvec3 size = glm::abs(n);
+    const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+    sorted.push_back({f, static_cast<std::uint32_t>(2 * axis + (n[axis] < 0.0 ? 1 : 0)),
+                      along_hilbert_curve((centroid(f) - box.lo) / width), relative(f) * area(f)});
+    all += sorted.back().light;
   }
+  std::stable_sort(sorted.begin(), sorted.end(), [](const Face& a, const Face& b) {
+    return std::pair{a.way, a.place} < std::pair{b.way, b.place};
+  });
+  constexpr double looks_one_way = 0.8;
+  double before = 0.0, of_run = 0.0;  // light of the runs before, and of this one
+  glm::dvec3 moment{0.0}, vector{0.0};
+  for (std::size_t k = 0, begin = 0; k < sorted.size(); ++k) {
+    const auto& [face, way, place, light] = sorted[k];
+    of_run += light;
+    moment += light * centroid(face);
+    vector += light * scene_.patches[face].normal;
+    const auto runs = static_cast<double>(points_.size() - first_.back());
+    if (k + 1 < sorted.size() && (before + of_run) * most_points < all * (runs + 1.0)) { continue; }
+    const std::uint32_t middle = sorted[(begin + k) / 2].face;
+    const double shown = glm::length(vector);
+    if (shown > looks_one_way * of_run) {
+      points_.push_back({moment / of_run, vector / shown, of_run, middle});
+    } else {
+      points_.push_back({centroid(middle), scene_.patches[middle].normal, of_run, middle});
+    }
+    before += of_run;
+    of_run = 0.0, moment = glm::dvec3{0.0}, vector = glm::dvec3{0.0}, begin = k + 1;
+  }
+}
+
+HALFLIGHT_INLINE glm::dvec3 LampExchange::centroid(std::uint32_t i) const {
+  return exposure_ != nullptr ? exposure_->centroid[i] : scene_.patches[i].centroid;
 }
 
 HALFLIGHT_INLINE std::span<const LampExchange::Point> LampExchange::points_of(std::uint32_t lamp) const {

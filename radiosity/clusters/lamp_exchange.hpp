@@ -3,14 +3,15 @@
 
 // The exchange between a cluster of emitting faces (make_lamp_clusters()) and a patch, of which the patch gets the light of the faces when
 // it is multiplied with their mean exitance: a face counts as its area times its exitance relative to that mean. The cluster is
-// represented by up to 256 points: the Gauss points of few faces, the centres of more faces, or 256 faces drawn evenly by light if there
-// are many. The unoccluded exchange, and its gradient over the patch, is the sum over these points and the Gauss points of the patch.
+// represented by up to 256 points: the Gauss points of few faces, the centres of more faces, or those of groups of faces if there are
+// many. The unoccluded exchange, and its gradient over the patch, is the sum over these points and the Gauss points of the patch.
 // Occlusion is sampled by segments whose start points are drawn in proportion to the light that each sends.
 //
 // A cluster and a patch that are linked lie well apart (lamp_oracle.hpp), so the sum is within some 1 % of the integral.
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -55,6 +56,9 @@ class LampExchange {
   static constexpr std::size_t most_points = 256;
 
   void add_points(const std::vector<std::uint32_t>& faces, const std::vector<double>& emission);
+  // `relative`: of a face, its exitance relative to the mean.
+  void add_runs(const std::vector<std::uint32_t>& faces, const std::function<double(std::uint32_t)>& relative);
+  [[nodiscard]] glm::dvec3 centroid(std::uint32_t i) const;
   [[nodiscard]] double area(std::size_t i) const { return exposure_ != nullptr ? exposure_->area[i] : scene_.hierarchy[i].area; }
   [[nodiscard]] std::span<const Point> points_of(std::uint32_t lamp) const;
   // The mean direction of the unoccluded light from the lamp to a patch, which must be lit by it.

@@ -19,46 +19,12 @@
 #include <raycast/tolerances.hpp>
 
 #include <radiosity/direct/facets.hpp>
+#include <radiosity/geometry/hilbert_curve.hpp>
 #include <radiosity/support/draw.hpp>
 #include <radiosity/support/random.hpp>
 #include <radiosity/support/sobol.hpp>
 
 namespace radiosity {
-
-namespace detail {
-
-// The place of a point of the unit cube along Hilbert's curve (1891) through it, on a grid of 2^bits cells a side, by the algorithm of
-// Skilling (2004). Points that are near each other on the curve are near each other.
-[[nodiscard]] HALFLIGHT_INLINE std::uint64_t along_hilbert_curve(const glm::dvec3& point) {
-  constexpr unsigned bits = 16;
-  std::array<std::uint32_t, 3> x{};
-  for (int k = 0; k < 3; ++k) {
-    x[static_cast<std::size_t>(k)] = static_cast<std::uint32_t>(std::clamp(point[k], 0.0, 1.0) * ((1u << bits) - 1));
-  }
-  for (std::uint32_t q = 1u << (bits - 1); q > 1; q >>= 1) {
-    const std::uint32_t lower = q - 1;
-    for (std::uint32_t& axis : x) {
-      const std::uint32_t t = (x[0] ^ axis) & lower;
-      if ((axis & q) != 0) {
-        x[0] ^= lower;
-      } else {
-        x[0] ^= t;
-        axis ^= t;
-      }
-    }
-  }
-  x[1] ^= x[0];
-  x[2] ^= x[1];
-  std::uint32_t t = 0;
-  for (std::uint32_t q = 1u << (bits - 1); q > 1; q >>= 1) { t ^= (x[2] & q) != 0 ? q - 1 : 0; }
-  std::uint64_t place = 0;
-  for (std::uint32_t q = 1u << (bits - 1); q > 0; q >>= 1) {
-    for (const std::uint32_t axis : x) { place = place << 1 | (((axis ^ t) & q) != 0 ? 1u : 0u); }
-  }
-  return place;
-}
-
-}  // namespace detail
 
 HALFLIGHT_INLINE std::vector<LampSample> lamp_samples(const Facets& facets, std::span<const SampleEnd> ends, std::size_t count,
                                                       std::uint64_t seed) {
@@ -80,7 +46,7 @@ HALFLIGHT_INLINE std::vector<LampSample> lamp_samples(const Facets& facets, std:
     const Facets::Facet& facet = facets.facets[f];
     for (std::size_t i = 1; i + 1 < facet.contour.size(); ++i) {
       Triangle t{facet.contour[0], facet.contour[i], facet.contour[i + 1], facet.normal, ends[f]};
-      t.place = detail::along_hilbert_curve(((t.a + t.b + t.c) / 3.0 - bounds.lo) / width);
+      t.place = along_hilbert_curve(((t.a + t.b + t.c) / 3.0 - bounds.lo) / width);
       triangles.push_back(t);
     }
   }

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -34,26 +35,32 @@ HALFLIGHT_INLINE double mean_square(const Patch& patch, const glm::dvec3& g) {
   return patch.area > 0.0 ? sum / patch.area : 0.0;
 }
 
-HALFLIGHT_INLINE LeafErrors estimate_leaf_errors(const DiscreteScene& scene, const Links& links, const std::vector<Color>& radiosity) {
+HALFLIGHT_INLINE LeafErrors estimate_leaf_errors(const DiscreteScene& scene, const Links& links, const std::vector<Color>& radiosity,
+                                                 std::span<const double> each) {
   LeafErrors errors;
   const Hierarchy& hierarchy = scene.hierarchy;
   const std::vector<double>& area = scene.exposure.area;
   struct Gradient {
     std::array<glm::dvec3, 3> sum{glm::dvec3{0.0}, glm::dvec3{0.0}, glm::dvec3{0.0}};  // of the irradiance, by channel
     Color squares{0.0};                                                                // sum of the links' squared gradients
+    Color variance{0.0};                                                               // of `sum`, by the choice of the sample
   };
   std::vector<Gradient> gradient(hierarchy.size());
-  const auto arrives = [&](std::uint32_t i, double exchange, const Color& sent, const glm::dvec3& relative) {
+  const auto arrives = [&](std::uint32_t i, double exchange, const Color& sent, const glm::dvec3& relative, double times) {
     const Color light = exchange / area[i] * sent;
-    for (std::size_t c = 0; c < 3; ++c) { gradient[i].sum[c] += light[static_cast<int>(c)] * relative; }
-    gradient[i].squares += light * light * glm::dot(relative, relative);
+    for (std::size_t c = 0; c < 3; ++c) { gradient[i].sum[c] += times * light[static_cast<int>(c)] * relative; }
+    const Color square = light * light * glm::dot(relative, relative);
+    gradient[i].squares += times * square;
+    gradient[i].variance += times * (times - 1.0) * square;
   };
-  for (const Link& link : links) {
+  for (std::size_t k = 0; k < links.size(); ++k) {
+    const Link& link = links[k];
+    const double times = each.empty() ? 1.0 : each[k];
     const double exchange = static_cast<double>(link.exchange);
     if (hierarchy[link.p].is_cluster() || hierarchy[link.q].is_cluster()) { continue; }
     if (!(exchange > 0.0) || !(area[link.p] > 0.0) || !(area[link.q] > 0.0)) { continue; }
-    arrives(link.p, exchange, radiosity[link.q], link.shape_p.gradient());
-    arrives(link.q, exchange, radiosity[link.p], link.shape_q.gradient());
+    arrives(link.p, exchange, radiosity[link.q], link.shape_p.gradient(), times);
+    arrives(link.q, exchange, radiosity[link.p], link.shape_q.gradient(), times);
   }
   errors.squares.assign(hierarchy.size(), 0.0f);
   for (std::size_t i = 0; i < hierarchy.size(); ++i) {
@@ -62,15 +69,17 @@ HALFLIGHT_INLINE LeafErrors estimate_leaf_errors(const DiscreteScene& scene, con
     for (std::uint32_t k = node.first_child; k < node.first_child + node.child_count; ++k) {
       for (std::size_t c = 0; c < 3; ++c) { gradient[k].sum[c] += gradient[i].sum[c]; }
       gradient[k].squares += gradient[i].squares;
+      gradient[k].variance += gradient[i].variance;
     }
     if (!node.leaf()) { continue; }
     double square = 0.0;
     for (std::size_t c = 0; c < 3; ++c) {
       const glm::dvec3& g = gradient[i].sum[c];
       const double rho = scene.reflectance[node.surface][static_cast<int>(c)];
-      const double error = area[i] * rho * rho * mean_square(scene.patches[i], g);
-      square += error;
-      if (error > 0.0) { errors.apart += error * gradient[i].squares[static_cast<int>(c)] / glm::dot(g, g); }
+      const double error = area[i] * rho * rho * mean_square(scene.patches[i], g), length2 = glm::dot(g, g);
+      if (!(error > 0.0)) { continue; }
+      square += error * (1.0 - gradient[i].variance[static_cast<int>(c)] / length2);
+      errors.apart += error * gradient[i].squares[static_cast<int>(c)] / length2;
     }
     errors.squares[i] = static_cast<float>(square);
     errors.sum += square;

@@ -10,6 +10,7 @@
 // the links, and so g, include the variation of the normals (bend.hpp).
 
 #include <algorithm>
+#include <span>
 #include <vector>
 
 #include <glm/vec3.hpp>
@@ -38,8 +39,11 @@ struct LeafErrors {
 // Mean of (g . (x - c))^2 over a patch, c its centroid.
 [[nodiscard]] double mean_square(const Patch& patch, const glm::dvec3& g);
 
-// Requires links with gradients, also at leaves.
-LeafErrors estimate_leaf_errors(const DiscreteScene& scene, const Links& links, const std::vector<Color>& radiosity);
+// Requires links with gradients, also at leaves. `each`: how many links each of a sample represents, or nothing if all are there. The
+// square of a sum over a sample is too large by its variance, which is subtracted (Horvitz and Thompson 1952, for independent draws): the
+// mean over samples is right, though single squares may be negative.
+LeafErrors estimate_leaf_errors(const DiscreteScene& scene, const Links& links, const std::vector<Color>& radiosity,
+                                std::span<const double> each = {});
 
 // Estimates the same sum if the gradients at leaves are not known, from the differences between sibling leaves. Where light is linear
 // over a parent of four leaves, squares or triangles, the variance within each is a third of that between them. Where some of the

@@ -173,27 +173,30 @@ HALFLIGHT_INLINE LeafErrors sampled_leaf_errors(const DiscreteScene& scene, std:
     for (std::uint32_t k = node.first_child; k < node.first_child + node.child_count; ++k) { over_leaves[i] += over_leaves[k]; }
   }
   LeafErrors leaves;
-  Links scaled;  // scaled to represent all links
+  Links sampled;
+  std::vector<double> each;  // number of links that each sampled one represents
   for (const LinkSample* sample : samples) {
-    const auto arrives = [&](std::uint32_t i, std::uint32_t sender, double exchange, float linear, double each) {
+    const auto arrives = [&](std::uint32_t i, std::uint32_t sender, double exchange, float linear, double times) {
       if (hierarchy[i].is_cluster() || !(area[i] > 0.0)) { return; }
       const Color light = exchange / area[i] * double{linear} * scene.reflectance[hierarchy[i].surface] * radiosity[sender];
-      leaves.apart += each * over_leaves[i] / area[i] * glm::dot(light, light);
+      leaves.apart += times * over_leaves[i] / area[i] * glm::dot(light, light);
     };
     for (std::size_t k = 0; k < sample->links.size(); ++k) {
       const auto& [link, list, variation] = sample->links[k];
-      scaled.push_back(link);
-      scaled.back().exchange *= static_cast<float>(sample->each[k]);
+      sampled.push_back(link);
+      each.push_back(sample->each[k]);
       arrives(link.p, link.q, static_cast<double>(link.exchange), variation.p.linear, sample->each[k]);
       arrives(link.q, link.p, static_cast<double>(link.exchange), variation.q.linear, sample->each[k]);
     }
   }
   // A leaf that is a whole input face has no siblings, so its gradient is used. If the sample contains all links, the gradients
   // are exact enough for all leaves.
-  LeafErrors by_gradients = estimate_leaf_errors(scene, scaled, radiosity);
-  if (scaled.size() == all_links) { return by_gradients; }
+  LeafErrors by_gradients = estimate_leaf_errors(scene, sampled, radiosity, each);
+  if (sampled.size() == all_links) { return by_gradients; }
   leaves.sum = variation_by_siblings(hierarchy, area, radiosity);
-  for (std::size_t i = 0; i < hierarchy.size(); ++i) { leaves.sum += is_input_face(hierarchy, i) ? by_gradients.squares[i] : 0.0f; }
+  double of_faces = 0.0;
+  for (std::size_t i = 0; i < hierarchy.size(); ++i) { of_faces += is_input_face(hierarchy, i) ? by_gradients.squares[i] : 0.0f; }
+  leaves.sum += std::max(0.0, of_faces);
   return leaves;
 }
 
