@@ -67,8 +67,8 @@ TEST_CASE("soft shadows: of a ball or a tube behind a straight edge a point sees
   std::mt19937 random{seed};
   std::uniform_real_distribution<> uniform;
   const glm::dvec3 middle{0, 0, height};
-  constexpr int edges = 40;
   for (const bool tube : {false, true}) {
+    const int edges = tube ? 100 : 40;  // single shares are .026 off for a tube (RMS), .009 for a ball
     double all = 0.0, squares = 0.0, sum = 0.0;
     for (int k = 0; k < edges; ++k) {
       const double turn = 2.0 * std::numbers::pi * uniform(random), at = 1.8 * uniform(random) - 0.9;  // seen, in radii
