@@ -36,7 +36,7 @@ std::optional<std::string> gunzip(std::string_view bytes, std::size_t most, std:
   if (!is_gzip(bytes) || bytes.size() < shortest_header + end) { return refuse(damaged); }
   const std::size_t header = length_of_header(bytes), size = bits_at(bytes, bytes.size() - 4, 4);
   if (header + end > bytes.size() || size > best_ratio * bytes.size()) { return refuse(damaged); }
-  if (size > most) { return refuse("is a compressed file (gzip) that holds more than halflight reads"); }
+  if (size > most) { return refuse("is a compressed file (gzip) that holds more than halflight reads, or is damaged or cut"); }
   std::string out(size, '\0');
   if (size > 0 && !inflate(bytes.substr(header), out)) { return refuse(damaged); }
   return crc32(out) == bits_at(bytes, bytes.size() - end, 4) ? std::optional(std::move(out)) : refuse(damaged);
