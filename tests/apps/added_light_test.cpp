@@ -20,6 +20,7 @@
 #include "catch.hpp"
 #include "houses.hpp"
 #include "models.hpp"
+#include "seed.hpp"
 
 using houses::add_box;
 using houses::house_without_lamp;
@@ -62,7 +63,7 @@ TEST_CASE("a closed room in which nothing shines gets a lamp in its air") {
 }
 
 TEST_CASE("in a corridor without a lamp of its own the lamp hangs in the middle, whatever lies along the walls") {
-  const auto seed = std::random_device{}();
+  const auto seed = test::seed();
   INFO("seed " << seed);
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> unit(0.0, 1.0);
@@ -122,7 +123,7 @@ TEST_CASE("a house of thick walls without a lamp is lit where it is seen") {
 
 // Walls, floor and ceiling are boxes with a thickness, and there is a doorway, so no shell is a closed room.
 TEST_CASE("where the cameras of a file see nothing but darkness, the picture is taken of the model in its studio, unless the user chose") {
-  const auto seed = std::random_device{}();
+  const auto seed = test::seed();
   INFO("seed " << seed);
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> unit(0.0, 1.0);
@@ -166,7 +167,7 @@ TEST_CASE("where the cameras of a file see nothing but darkness, the picture is 
 }
 
 TEST_CASE("a room with a doorway and without a lamp is lit if the camera of the file stands in it") {
-  const unsigned seed = std::random_device{}();
+  const unsigned seed = test::seed();
   INFO("seed " << seed);
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> unit(0.0, 1.0);

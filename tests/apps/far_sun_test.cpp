@@ -25,6 +25,7 @@
 #include <radiosity/scene/options.hpp>
 
 #include "apps/scene_file.hpp"
+#include "seed.hpp"
 
 namespace {
 
@@ -66,7 +67,7 @@ Shown shown(const std::string& text, const glm::dvec3& block) {
 }  // namespace
 
 TEST_CASE("under a sun that looks the same the picture and all radiosities are the same, however far it is") {
-  const auto seed = std::random_device{}();
+  const auto seed = test::seed();
   INFO("seed " << seed);
   std::mt19937_64 random{seed};
   const auto between = [&](double a, double b) { return std::uniform_real_distribution<double>{a, b}(random); };
@@ -122,7 +123,7 @@ std::string room_in_the_sun(const glm::dvec2& window, const glm::dvec3& to_sun, 
 // Errors are relative to the light on what is lit. If they were relative to the area of all, a sun would take the rays away: its area grows
 // with the square of its distance.
 TEST_CASE("under a sun that looks the same as many rays are stored, on leaves as fine, however far it is") {
-  const auto seed = std::random_device{}();
+  const auto seed = test::seed();
   INFO("seed " << seed);
   std::mt19937_64 random{seed};
   const auto between = [&](double a, double b) { return std::uniform_real_distribution<double>{a, b}(random); };

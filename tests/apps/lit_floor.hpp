@@ -20,6 +20,7 @@
 
 #include "apps/scene_file.hpp"
 #include "catch.hpp"
+#include "seed.hpp"
 
 namespace lit_floor {
 
@@ -46,7 +47,7 @@ class Floor {
 };
 
 struct Dice {
-  unsigned seed = std::random_device{}();
+  unsigned seed = test::seed();
   std::mt19937_64 random{seed};
   double between(double a, double b) { return std::uniform_real_distribution<double>{a, b}(random); }
   glm::dvec3 above_floor(double lowest, double highest) {

@@ -14,6 +14,7 @@
 
 #include "json.hpp"
 #include "program.hpp"
+#include "seed.hpp"
 
 using program::Place;
 using program::Run;
@@ -83,7 +84,7 @@ std::string alias(const Place& place, const std::string& file, const std::string
 }  // namespace
 
 TEST_CASE("an output that is the input by any name is refused with exit code 2, and the input keeps its bytes") {
-  const auto seed = std::random_device{}();
+  const auto seed = test::seed();
   INFO("seed " << seed);
   std::mt19937 random(seed);
   for (const Command& c : commands()) {
@@ -111,7 +112,7 @@ TEST_CASE("an output that is the input by any name is refused with exit code 2, 
 }
 
 TEST_CASE("an output that the scene reads is refused by any name with exit code 2 before anything is written") {
-  const auto seed = std::random_device{}();
+  const auto seed = test::seed();
   INFO("seed " << seed);
   std::mt19937 random(seed);
   const std::string obj = "mtllib q.mtl\nusemtl a\n" + mesh_text, mtl = "newmtl a\nKd 1 1 1\nmap_Kd q.png\n";
@@ -168,7 +169,7 @@ TEST_CASE("an output that the scene reads is refused by any name with exit code 
 }
 
 TEST_CASE("two outputs that are one file by any name, old or new, are refused with exit code 2 before the work") {
-  const auto seed = std::random_device{}();
+  const auto seed = test::seed();
   INFO("seed " << seed);
   std::mt19937 random(seed);
   const std::vector<std::string> pairs[] = {{"render", " --audit 0 --epsilon 0.5 --quiet -o x.png -o ", ".png"},

@@ -7,6 +7,7 @@
 #include "apps/intake/model.hpp"
 #include "apps/intake/spot_cup.hpp"
 #include "catch.hpp"
+#include "seed.hpp"
 
 namespace {
 
@@ -37,7 +38,7 @@ double flux(const Intensity& intensity) {
 }  // namespace
 
 TEST_CASE("spots: the intensity is full on the axis, falls with the angle, and ends with the cone, and its flux is that of the formula") {
-  const auto seed = std::random_device{}();
+  const auto seed = test::seed();
   INFO("seed " << seed);
   std::mt19937 random{seed};
   std::uniform_real_distribution<> uniform;
@@ -65,7 +66,7 @@ TEST_CASE("spots: the intensity is full on the axis, falls with the angle, and e
 }
 
 TEST_CASE("spots: of a cup of any size as much of the ball is seen as rays pass its opening") {
-  const auto seed = std::random_device{}();
+  const auto seed = test::seed();
   INFO("seed " << seed);
   std::mt19937 random{seed};
   std::uniform_real_distribution<> uniform;
@@ -91,7 +92,7 @@ TEST_CASE("spots: of a cup of any size as much of the ball is seen as rays pass 
 }
 
 TEST_CASE("spots: a cup sends as much light as the file says, and from inner to outer cones of any width nearly as it says") {
-  const auto seed = std::random_device{}();
+  const auto seed = test::seed();
   INFO("seed " << seed);
   std::mt19937 random{seed};
   std::uniform_real_distribution<> uniform;

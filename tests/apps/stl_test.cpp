@@ -18,6 +18,7 @@
 #include "catch.hpp"
 #include "models.hpp"
 #include "program.hpp"
+#include "seed.hpp"
 
 namespace {
 
@@ -134,7 +135,7 @@ TEST_CASE("STL: of a binary file all lengths are told or read, and no number of 
 }
 
 TEST_CASE("STL: damaged files give a model or an error, and end") {
-  const auto seed = std::random_device{}();
+  const auto seed = test::seed();
   INFO("seed " << seed);
   std::mt19937 random(seed);
   for (int run = 0; run < 400; ++run) {

@@ -16,6 +16,7 @@
 #include "apps/models.hpp"
 #include "apps/picture_file.hpp"
 #include "catch.hpp"
+#include "seed.hpp"
 
 namespace {
 
@@ -71,7 +72,7 @@ TEST_CASE("textures: the mean of a PNG is that of its pixels in linear light, wh
 }
 
 TEST_CASE("textures: the part on a triangle has the mean of its points, also on one that is thinner than a pixel, or a line") {
-  const unsigned seed = std::random_device{}();
+  const unsigned seed = test::seed();
   CAPTURE(seed);
   std::mt19937 random(seed);
   const auto unit = [&] { return std::uniform_real_distribution(0.0, 1.0)(random); };
@@ -97,7 +98,7 @@ TEST_CASE("textures: the part on a triangle has the mean of its points, also on 
 }
 
 TEST_CASE("textures: the parts on triangles that tile a rectangle have its mean") {
-  const unsigned seed = std::random_device{}();
+  const unsigned seed = test::seed();
   CAPTURE(seed);
   std::mt19937 random(seed);
   const auto unit = [&] { return std::uniform_real_distribution(0.0, 1.0)(random); };

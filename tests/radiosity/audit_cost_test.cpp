@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <random>
 #include <utility>
 #include <vector>
 
@@ -24,6 +23,7 @@
 
 #include "catch.hpp"
 #include "scenes.hpp"
+#include "seed.hpp"
 
 using radiosity::AuditGoal;
 using radiosity::Color;
@@ -76,7 +76,7 @@ Taken audited(const Kind& kind, const AuditGoal& goal, std::uint64_t seed) {
 }  // namespace
 
 TEST_CASE("an audit takes about the rays that it may, pilots included, or the least that gives an interval") {
-  const auto seed = std::random_device{}();
+  const auto seed = test::seed();
   INFO("seed " << seed);
   radiosity::Random random{seed, 0};
   for (int k = 0; k < 300; ++k) {
@@ -111,7 +111,7 @@ TEST_CASE("an audit takes about the rays that it may, pilots included, or the le
 }
 
 TEST_CASE("an audit that goes on narrows what was wide and shows targets that were left open, what was enough stays as it is") {
-  const auto seed = std::random_device{}();
+  const auto seed = test::seed();
   INFO("seed " << seed);
   radiosity::Random random{seed, 0};
   int wide[2] = {0, 0}, shown[2] = {0, 0};
@@ -143,7 +143,7 @@ TEST_CASE("an audit that goes on narrows what was wide and shows targets that we
 }
 
 TEST_CASE("a picture that is good enough is known to be so by what it cost, however cheap its solution was") {
-  const auto seed = std::random_device{}();
+  const auto seed = test::seed();
   INFO("seed " << seed);
   radiosity::Random random{seed, 0};
   int alone = 0, with_picture = 0;
@@ -164,7 +164,7 @@ TEST_CASE("a picture that is good enough is known to be so by what it cost, howe
 }
 
 TEST_CASE("an audit takes from the reserve what shows a target that noise hides, if another round costs about as much, and never more") {
-  const auto seed = std::random_device{}();
+  const auto seed = test::seed();
   INFO("seed " << seed);
   radiosity::Random random{seed, 0};
   int shown[3] = {0, 0, 0};
@@ -200,7 +200,7 @@ TEST_CASE("an audit takes from the reserve what shows a target that noise hides,
 }
 
 TEST_CASE("rounds to a target share one reserve of rays, and are the same whatever their audits take of it") {
-  const auto seed = std::random_device{}();
+  const auto seed = test::seed();
   INFO("seed " << seed);
   radiosity::Random random{seed, 0};
   for (int k = 0; k < 100; ++k) {
@@ -240,7 +240,7 @@ TEST_CASE("rounds to a target share one reserve of rays, and are the same whatev
 }
 
 TEST_CASE("an audit of a target that leaves it open took about as many rays as its last pilot") {
-  const auto seed = std::random_device{}();
+  const auto seed = test::seed();
   INFO("seed " << seed);
   radiosity::Random random{seed, 0};
   int open = 0;
@@ -262,7 +262,7 @@ TEST_CASE("an audit of a target that leaves it open took about as many rays as i
 }
 
 TEST_CASE("an audit of what is black ends with its search for light, a quarter of its rays, and measures nothing") {
-  const auto seed = std::random_device{}();
+  const auto seed = test::seed();
   INFO("seed " << seed);
   radiosity::Random random{seed, 0};
   for (int k = 0; k < 50; ++k) {
@@ -277,7 +277,7 @@ TEST_CASE("an audit of what is black ends with its search for light, a quarter o
 }
 
 TEST_CASE("a target out of reach ends within the stated work, and after the same rounds as any other") {
-  const auto seed = std::random_device{}();
+  const auto seed = test::seed();
   INFO("seed " << seed);
   radiosity::Random random{seed, 0};
   for (int k = 0; k < 200; ++k) {
@@ -323,7 +323,7 @@ TEST_CASE("a target out of reach ends within the stated work, and after the same
 
 TEST_CASE("the audits of random scenes cost what is stated: as much time as the solution, or 5000 rays a point where that is more",
           "[accuracy]") {
-  const auto seed = std::random_device{}();
+  const auto seed = test::seed();
   INFO("seed " << seed);
   radiosity::Random random{seed, 0};
   for (int k = 0; k < 6; ++k) {

@@ -11,6 +11,7 @@
 #include <radiosity/solver/balance.hpp>
 
 #include "../catch.hpp"
+#include "seed.hpp"
 
 namespace {
 
@@ -49,7 +50,7 @@ std::vector<double> balanced(Matrix& matrix, const std::vector<double>& t, const
 }  // namespace
 
 TEST_CASE("row sums are met, by the scale of the plain iteration") {
-  const auto seed = std::random_device{}();
+  const auto seed = test::seed();
   INFO("seed " << seed);
   std::mt19937_64 random{seed};
   std::uniform_real_distribution<> unit;
@@ -110,7 +111,7 @@ TEST_CASE("rows that want nothing, or receive nothing, keep their scale") {
 }
 
 TEST_CASE("row sums end no further from the goal than they began, also where no scale within the limits meets it") {
-  const auto seed = std::random_device{}();
+  const auto seed = test::seed();
   INFO("seed " << seed);
   std::mt19937_64 random{seed};
   std::uniform_real_distribution<> unit;
@@ -144,7 +145,7 @@ TEST_CASE("row sums end no further from the goal than they began, also where no 
 }
 
 TEST_CASE("pairs of patches that see hardly anything but each other do not take all products") {
-  const auto seed = std::random_device{}();
+  const auto seed = test::seed();
   INFO("seed " << seed);
   std::mt19937_64 random{seed};
   std::uniform_real_distribution<> unit;
@@ -168,7 +169,7 @@ TEST_CASE("pairs of patches that see hardly anything but each other do not take 
 }
 
 TEST_CASE("the goal is met, and not much more than that, because products are dear") {
-  const auto seed = std::random_device{}();
+  const auto seed = test::seed();
   INFO("seed " << seed);
   std::mt19937_64 random{seed};
   std::uniform_real_distribution<> unit;

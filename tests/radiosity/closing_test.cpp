@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <random>
 #include <utility>
 #include <vector>
 
@@ -27,6 +26,7 @@
 
 #include "catch.hpp"
 #include "scenes.hpp"
+#include "seed.hpp"
 #include "solved.hpp"
 
 namespace {
@@ -81,7 +81,7 @@ double error_on_ceiling(const HungSphere& hung, const radiosity::Solution& solut
 }  // namespace
 
 TEST_CASE("closing a room leaves the light of a lamp under its ceiling, which hides much of the room from it, as it is", "[accuracy]") {
-  const auto seed = std::random_device{}();
+  const auto seed = test::seed();
   INFO("seed " << seed);
   radiosity::Random random{seed, 0x63656960ull};
   for (int round = 0; round < 6; ++round) {
@@ -102,7 +102,7 @@ TEST_CASE("closing a room leaves the light of a lamp under its ceiling, which hi
 
 // Panels hang under the ceiling, at several heights, and a thing stands on the floor. What lies below them all cannot see their backs.
 TEST_CASE("in a room with lamps that are black from behind all patches in front of them see light in every direction", "[accuracy]") {
-  const auto seed = std::random_device{}();
+  const auto seed = test::seed();
   INFO("seed " << seed);
   radiosity::Random random{seed, 0x70616e656cull};
   const auto between = [&](double a, double b) { return a + (b - a) * random.uniform(); };
@@ -144,7 +144,7 @@ TEST_CASE("in a room with lamps that are black from behind all patches in front 
 // What the top of a lamp and the ceiling reflect to each other is most of the light that is reflected at all. Patches there are wider than
 // the gap, so that their computed row sums are up to 1.7; and with a wall missing, nothing tells what the others should be.
 TEST_CASE("in an open room a lamp and the ceiling close above it keep the light that they reflect to each other", "[accuracy]") {
-  const auto seed = std::random_device{}();
+  const auto seed = test::seed();
   INFO("seed " << seed);
   radiosity::Random random{seed, 0x676170ull};
   const auto between = [&](double a, double b) { return a + (b - a) * random.uniform(); };
@@ -181,7 +181,7 @@ TEST_CASE("in an open room a lamp and the ceiling close above it keep the light 
 
 // Two walls that stand beyond the others keep the room from being proven closed.
 TEST_CASE("a white room that only rays know to be closed is refused, but solved where something absorbs, or light gets out") {
-  const auto seed = std::random_device{}();
+  const auto seed = test::seed();
   INFO("seed " << seed);
   radiosity::Random random{seed, 0x7768ull};
   const auto in = [&](double low, double high) { return low + (high - low) * random.uniform(); };

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstdint>
 #include <memory>
-#include <random>
 #include <utility>
 #include <vector>
 
@@ -31,6 +30,7 @@
 #include "catch.hpp"
 #include "lit_world.hpp"
 #include "scenes.hpp"
+#include "seed.hpp"
 
 namespace {
 
@@ -70,7 +70,7 @@ std::shared_ptr<const raycast::Object> lamp_shape(int kind, radiosity::Random& r
 // it, each of them with the same area: a part in thirty is what these may miss where an outline runs through them, and where the first 64
 // agree. A lamp whose own surface hides the points on it lost between a third and all of its light.
 TEST_CASE("direct light: a curved lamp of any kind lights points as many rays to it say", "[direct]") {
-  const std::uint64_t seed = std::random_device{}();
+  const std::uint64_t seed = test::seed();
   INFO("seed " << seed);
   radiosity::Random random{seed, 0, 0};
   const auto between = [&](double a, double b) { return a + (b - a) * random.uniform(); };
@@ -156,7 +156,7 @@ struct ThinLamp {
 // Facets have the area of the lamp within .3 %, so the width of its outline may be off by three times that at most, as it turns; eight
 // around a tube, whatever its radius, would be off by up to 8 %.
 TEST_CASE("direct light: a tube or a ring, however thin, is as bright from all around", "[direct]") {
-  const std::uint64_t seed = std::random_device{}();
+  const std::uint64_t seed = test::seed();
   INFO("seed " << seed);
   radiosity::Random random{seed, 0, 0};
   const auto between = [&](double a, double b) { return a + (b - a) * random.uniform(); };

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstdint>
 #include <memory>
-#include <random>
 #include <utility>
 #include <vector>
 
@@ -34,6 +33,7 @@
 #include "catch.hpp"
 #include "lit_world.hpp"
 #include "scenes.hpp"
+#include "seed.hpp"
 
 using radiosity::Color;
 using radiosity::Scene;
@@ -234,7 +234,7 @@ TEST_CASE("direct light: an object of many faces is cut out of the lamp, too", "
 }
 
 TEST_CASE("direct light: a face that is not quite plane is not shadowed by its own back", "[direct]") {
-  const std::uint64_t seed = std::random_device{}();
+  const std::uint64_t seed = test::seed();
   INFO("seed " << seed);
   radiosity::Random random{seed, 0, 0};
   for (int i = 0; i < 20; ++i) {
@@ -256,7 +256,7 @@ TEST_CASE("direct light: a face that is not quite plane is not shadowed by its o
 }
 
 TEST_CASE("direct light: the two sides of a sheet do not light each other, however it lies", "[direct]") {
-  const auto seed = std::random_device{}();
+  const auto seed = test::seed();
   INFO("seed " << seed);
   radiosity::Random random{seed, 0x7368656574ull};
   for (int round = 0; round < 50; ++round) {
@@ -307,7 +307,7 @@ TEST_CASE("direct light: the strongest lamps are taken, within the limits, flat 
 
 // What segments say of a large lamp of which little is seen: a sky, through small holes in a plate that has too many faces to be cut out.
 TEST_CASE("direct light: a sky through a few holes is what many segments say", "[direct][accuracy]") {
-  const std::uint64_t seed = std::random_device{}();
+  const std::uint64_t seed = test::seed();
   INFO("seed " << seed);
   radiosity::Random random{seed, 0, 0};
   Off off;
@@ -330,7 +330,7 @@ TEST_CASE("direct light: a sky through a few holes is what many segments say", "
 
 // A sky behind a blind, and before it a thing that is not cut out: its shadow is that of segments to the gaps, not to all of the sky.
 TEST_CASE("direct light: a sky through a blind, beside a thing of any shape, is what many segments say", "[direct][accuracy]") {
-  const std::uint64_t seed = std::random_device{}();
+  const std::uint64_t seed = test::seed();
   INFO("seed " << seed);
   radiosity::Random random{seed, 0, 0};
   Off off;

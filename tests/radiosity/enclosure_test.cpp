@@ -27,6 +27,7 @@
 
 #include "catch.hpp"
 #include "scenes.hpp"
+#include "seed.hpp"
 #include "solved.hpp"
 
 namespace {
@@ -153,7 +154,7 @@ std::size_t add_outsides(radiosity::Scene& scene, const std::vector<Corners>& wa
 }  // namespace
 
 TEST_CASE("a room of polygons is closed however it is cut and turned, and open when one is missing, turned around or moved away") {
-  const auto seed = std::random_device{}();
+  const auto seed = test::seed();
   INFO("seed " << seed);
   Maker make{seed};
   for (int round = 0; round < 40; ++round) {
@@ -182,7 +183,7 @@ TEST_CASE("a room of polygons is closed however it is cut and turned, and open w
 }
 
 TEST_CASE("what stands in a room of polygons leaves it closed, what stands outside or passes through a wall does not") {
-  const auto seed = std::random_device{}();
+  const auto seed = test::seed();
   INFO("seed " << seed);
   Maker make{seed};
   for (int round = 0; round < 20; ++round) {
@@ -214,7 +215,7 @@ TEST_CASE("what stands in a room of polygons leaves it closed, what stands outsi
 }
 
 TEST_CASE("a lamp that lies on the walls leaves a room of polygons closed, one that hangs free or faces the wall does not") {
-  const auto seed = std::random_device{}();
+  const auto seed = test::seed();
   INFO("seed " << seed);
   Maker make{seed};
   for (int round = 0; round < 20; ++round) {
@@ -230,7 +231,7 @@ TEST_CASE("a lamp that lies on the walls leaves a room of polygons closed, one t
 
 TEST_CASE("furnaces of things that cross: rooms that are not proven closed, but lose no ray, glow evenly at any reflectance",
           "[accuracy]") {
-  const auto seed = std::random_device{}();
+  const auto seed = test::seed();
   INFO("seed " << seed);
   Maker make{seed};
   for (int round = 0; round < 8; ++round) {
@@ -252,7 +253,7 @@ TEST_CASE("furnaces of things that cross: rooms that are not proven closed, but 
 // A patch is a chord of its surface. Where this runs through a curved wall, rays from what is exposed of the chord could begin outside the
 // room: one of them was enough for the room to count as open.
 TEST_CASE("curved things that stick out of a curved room with a sheet of two sides let no light out") {
-  const auto seed = std::random_device{}();
+  const auto seed = test::seed();
   INFO("seed " << seed);
   Maker make{seed};
   const Corners sheet{{-0.2, -0.2, 0.0}, {0.2, -0.2, 0.1}, {0.2, 0.2, 0.1}, {-0.2, 0.2, 0.0}};
@@ -277,7 +278,7 @@ TEST_CASE("curved things that stick out of a curved room with a sheet of two sid
 }
 
 TEST_CASE("furnaces within walls of two sides: the outer sides lose all their light, the rooms within glow evenly all the same") {
-  const auto seed = std::random_device{}();
+  const auto seed = test::seed();
   INFO("seed " << seed);
   Maker make{seed};
   for (int round = 0; round < 8; ++round) {
@@ -304,7 +305,7 @@ TEST_CASE("furnaces within walls of two sides: the outer sides lose all their li
 }
 
 TEST_CASE("a room with a hole in its ceiling, of a tenth of its width or more, is not taken for closed, nor one with walls of two sides") {
-  const auto seed = std::random_device{}();
+  const auto seed = test::seed();
   INFO("seed " << seed);
   Maker make{seed};
   for (int round = 0; round < 8; ++round) {
@@ -331,7 +332,7 @@ TEST_CASE("a room with a hole in its ceiling, of a tenth of its width or more, i
 }
 
 TEST_CASE("furnaces of polygons: B = E / (1 - rho) on every leaf, as in a solid room") {
-  const auto seed = std::random_device{}();
+  const auto seed = test::seed();
   INFO("seed " << seed);
   Maker make{seed};
   for (const double rho : {0.5, 0.9, 0.99}) {

@@ -33,6 +33,7 @@
 
 #include "catch.hpp"
 #include "scenes.hpp"
+#include "seed.hpp"
 
 using radiosity::Color;
 using radiosity::Scene;
@@ -243,7 +244,7 @@ TEST_CASE("a wall cuts the faces on which it stands, and what does not divide th
 
 // Files of other programs round coordinates, or leave a millimetre between what stands and what it stands on.
 TEST_CASE("a wall whose foot is a little above or below a face cuts it as one that touches") {
-  const auto seed = std::random_device{}();
+  const auto seed = test::seed();
   INFO("seed " << seed);
   radiosity::Random random{seed, 7};
   for (int k = 0; k < 20; ++k) {
@@ -300,7 +301,7 @@ TEST_CASE("closure: a plate in the plane of a wall, but beyond the wall, does no
 }
 
 TEST_CASE("an object much smaller than the scene is solved, or refused where its shape would be lost in rounding") {
-  const auto seed = std::random_device{}();
+  const auto seed = test::seed();
   INFO("seed " << seed);
   std::mt19937_64 random{seed};
   const auto uniform = [&](double a, double b) { return std::uniform_real_distribution<>{a, b}(random); };

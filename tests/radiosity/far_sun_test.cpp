@@ -8,7 +8,6 @@
 #include <cmath>
 #include <cstdint>
 #include <numbers>
-#include <random>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -30,6 +29,7 @@
 #include "catch.hpp"
 #include "lit_world.hpp"
 #include "scenes.hpp"
+#include "seed.hpp"
 #include "solved.hpp"
 
 using radiosity::Color;
@@ -66,7 +66,7 @@ Sun random_sun(Random& random) {
 }  // namespace
 
 TEST_CASE("sun: paths find its light at any distance and size") {
-  const auto seed = std::random_device{}();
+  const auto seed = test::seed();
   INFO("seed " << seed);
   Random random{seed, 1};
   for (int trial = 0; trial < 40; ++trial) {
@@ -97,7 +97,7 @@ TEST_CASE("sun: paths find its light at any distance and size") {
 }
 
 TEST_CASE("sun: the error of its light on a plate is measured and holds the truth", "[accuracy]") {
-  const auto seed = std::random_device{}();
+  const auto seed = test::seed();
   INFO("seed " << seed);
   Random random{seed, 2};
   constexpr int trials = 20;
@@ -139,7 +139,7 @@ TEST_CASE("sun: the error of its light on a plate is measured and holds the trut
 }
 
 TEST_CASE("sun: one of four rounded corners shines past a thing of many faces, and does not hide itself", "[direct]") {
-  const auto seed = std::random_device{}();
+  const auto seed = test::seed();
   INFO("seed " << seed);
   Random random{seed, 3};
   int lit = 0, dark = 0;

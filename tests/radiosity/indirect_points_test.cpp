@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <random>
 #include <vector>
 
 #include <glm/common.hpp>
@@ -20,6 +19,7 @@
 #include <radiosity/support/random.hpp>
 
 #include "scenes.hpp"
+#include "seed.hpp"
 #include "solved.hpp"
 
 namespace {
@@ -244,7 +244,7 @@ TEST_CASE("indirect points that lie off those around them are gathered once more
 
 // Under an eave the light of a wall falls off within the eave's width, and from below it few rays tell of it: in the mean they go far.
 TEST_CASE("the sphere of a point of indirect light ends before what few of its rays meet is near", "[picture]") {
-  const auto seed = std::random_device{}();
+  const auto seed = test::seed();
   INFO("seed " << seed);
   radiosity::Random random{seed, 0};
   const radiosity::Options options{.epsilon = 0.5, .audit_points = 0};
@@ -278,7 +278,7 @@ TEST_CASE("the sphere of a point of indirect light ends before what few of its r
 // A pixel of a slanted surface is up to five pixels long but one wide. Where the gather allows a sphere of half a pixel, as beside a window
 // or above a lamp under the ceiling, one of two such lengths carried the light of a gap over ten pixels across.
 TEST_CASE("a point of indirect light reaches at most a pixel where the gather allows less, however slanted the surface is") {
-  const auto seed = std::random_device{}();
+  const auto seed = test::seed();
   INFO("seed " << seed);
   radiosity::Random random{seed, 0};
   for (int k = 0; k < 100; ++k) {

@@ -23,6 +23,7 @@
 #include <radiosity/visibility/visibility.hpp>
 
 #include "catch.hpp"
+#include "seed.hpp"
 
 namespace {
 
@@ -52,7 +53,7 @@ Patch random_patch(std::mt19937_64& random, std::size_t corners) {
 }  // namespace
 
 TEST_CASE("segments: eight drawn at once have the bits of segments drawn one by one, with every instruction set") {
-  const std::uint64_t seed = std::random_device{}();
+  const std::uint64_t seed = test::seed();
   INFO("seed " << seed);
   std::mt19937_64 generator{seed};
   for (int round = 0; round < 300; ++round) {
@@ -85,7 +86,7 @@ TEST_CASE("segments: eight drawn at once have the bits of segments drawn one by 
 TEST_CASE("kernel sums: every instruction set gives the same bits, those of the sum over pairs of points but for rounding") {
   using radiosity::detail::KernelLight;
   using radiosity::detail::KernelPoints;
-  const std::uint64_t seed = std::random_device{}();
+  const std::uint64_t seed = test::seed();
   INFO("seed " << seed);
   std::mt19937_64 generator{seed};
   for (int round = 0; round < 300; ++round) {
@@ -124,7 +125,7 @@ TEST_CASE("kernel sums: every instruction set gives the same bits, those of the 
 }
 
 TEST_CASE("links: light is carried to the same bits with every instruction set") {
-  const std::uint64_t seed = std::random_device{}();
+  const std::uint64_t seed = test::seed();
   INFO("seed " << seed);
   std::mt19937_64 generator{seed};
   std::normal_distribution<double> normal;

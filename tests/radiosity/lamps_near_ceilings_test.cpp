@@ -16,11 +16,12 @@
 
 #include "catch.hpp"
 #include "scenes.hpp"
+#include "seed.hpp"
 #include "solved.hpp"
 
 // What shines brightest is a ceiling that lamps hide from most of the room.
 TEST_CASE("a lamp close under a ceiling, hung or touching it, gives a closed room no more light than it sends", "[accuracy]") {
-  const auto seed = std::random_device{}();
+  const auto seed = test::seed();
   INFO("seed " << seed);
   std::mt19937_64 random{seed};
   const auto between = [&](double lo, double hi) { return std::uniform_real_distribution<double>{lo, hi}(random); };
@@ -42,7 +43,7 @@ TEST_CASE("a lamp close under a ceiling, hung or touching it, gives a closed roo
 
 // A patch of the ceiling that reaches out from behind the lamp would take light beside it and give a part of that to the lamp's back.
 TEST_CASE("a wide lamp close under a ceiling lights a floor as one that lies on the ceiling", "[accuracy]") {
-  const auto seed = std::random_device{}();
+  const auto seed = test::seed();
   INFO("seed " << seed);
   std::mt19937_64 random{seed};
   const auto between = [&](double lo, double hi) { return std::uniform_real_distribution<double>{lo, hi}(random); };

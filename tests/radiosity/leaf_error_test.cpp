@@ -18,9 +18,10 @@
 #include "catch.hpp"
 #include "roots.hpp"
 #include "scenes.hpp"
+#include "seed.hpp"
 
 TEST_CASE("the error of leaves from a sample of the links is, on average over the samples, that from all of them") {
-  const auto seed = std::random_device{}();
+  const auto seed = test::seed();
   CAPTURE(seed);
   std::mt19937_64 random{seed};
   std::uniform_real_distribution<double> unit;

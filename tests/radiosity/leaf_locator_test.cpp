@@ -18,6 +18,7 @@
 #include "catch.hpp"
 #include "roots.hpp"
 #include "scenes.hpp"
+#include "seed.hpp"
 
 using roots::closed_room;
 using roots::leaves_of;
@@ -25,7 +26,7 @@ using roots::roots_of;
 using roots::split_at_random;
 
 TEST_CASE("the leaf at a point of a flat surface is the leaf that holds it") {
-  const auto seed = std::random_device{}();
+  const auto seed = test::seed();
   INFO("seed " << seed);
   std::mt19937_64 random{seed};
   const radiosity::Scene scene = closed_room(
@@ -47,7 +48,7 @@ TEST_CASE("the leaf at a point of a flat surface is the leaf that holds it") {
 }
 
 TEST_CASE("the leaf at a point of a curved surface is the one that the point stands on, or beside its edge a neighbour") {
-  const auto seed = std::random_device{}();
+  const auto seed = test::seed();
   INFO("seed " << seed);
   std::mt19937_64 random{seed};
   const radiosity::Scene scene =

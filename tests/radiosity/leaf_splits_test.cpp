@@ -32,6 +32,7 @@
 
 #include "catch.hpp"
 #include "scenes.hpp"
+#include "seed.hpp"
 #include "solved.hpp"
 
 namespace {
@@ -41,7 +42,7 @@ using radiosity::Hierarchy;
 using radiosity::Links;
 
 struct LeafSplitSeed {
-  std::uint64_t seed = std::random_device{}();
+  std::uint64_t seed = test::seed();
   std::mt19937_64 random{seed};
   double between(double a, double b) { return std::uniform_real_distribution<double>{a, b}(random); }
 };

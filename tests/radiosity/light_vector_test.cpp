@@ -17,6 +17,7 @@
 #include <radiosity/direct/light_vector.hpp>
 
 #include "catch.hpp"
+#include "seed.hpp"
 
 namespace {
 
@@ -38,7 +39,7 @@ radiosity::Facets one_part(const std::shared_ptr<const raycast::Object>& shape, 
 }  // namespace
 
 TEST_CASE("light vectors: where they are taken to be linear they are those by the outline", "[direct]") {
-  const unsigned seed = std::random_device{}();
+  const unsigned seed = test::seed();
   CAPTURE(seed);
   Numbers number{std::mt19937{seed}};
   std::vector<char> facing;
@@ -68,7 +69,7 @@ TEST_CASE("light vectors: where they are taken to be linear they are those by th
 }
 
 TEST_CASE("light vectors: a sphere of facets is round, and nothing else is", "[direct]") {
-  const unsigned seed = std::random_device{}();
+  const unsigned seed = test::seed();
   CAPTURE(seed);
   Numbers number{std::mt19937{seed}};
   std::vector<char> facing;

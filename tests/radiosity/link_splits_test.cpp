@@ -28,6 +28,7 @@
 
 #include "catch.hpp"
 #include "scenes.hpp"
+#include "seed.hpp"
 #include "solved.hpp"
 
 namespace {
@@ -36,7 +37,7 @@ using radiosity::Color;
 using radiosity::Hierarchy;
 
 struct LinkSplitSeed {
-  std::uint64_t seed = std::random_device{}();
+  std::uint64_t seed = test::seed();
   std::mt19937_64 random{seed};
   double between(double a, double b) { return std::uniform_real_distribution<double>{a, b}(random); }
 };

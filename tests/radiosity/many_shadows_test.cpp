@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <random>
 #include <string>
 #include <vector>
 
@@ -26,6 +25,7 @@
 #include "catch.hpp"
 #include "lit_world.hpp"
 #include "scenes.hpp"
+#include "seed.hpp"
 
 namespace {
 
@@ -116,7 +116,7 @@ std::vector<Seen> seen(const Things& things, const glm::dvec3& middle, double ha
 }  // namespace
 
 TEST_CASE("direct light: among many things each point sees of a lamp what the faces of all of them leave", "[direct]") {
-  const auto seed = std::random_device{}();
+  const auto seed = test::seed();
   INFO("seed " << seed);
   radiosity::Random random{seed, 0x736861646f77ull};
   int lit = 0;
@@ -135,7 +135,7 @@ TEST_CASE("direct light: among many things each point sees of a lamp what the fa
 
 // From the corners of the region a wall lies before the rod or behind it, so that their shadows are one. From the middle it does neither.
 TEST_CASE("direct light: a rod close beside a wall keeps its shadow", "[direct]") {
-  const auto seed = std::random_device{}();
+  const auto seed = test::seed();
   INFO("seed " << seed);
   radiosity::Random random{seed, 0x726f64ull};
   Things things;

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <random>
 #include <vector>
 
 #include <radiosity/audit/pixel_draw.hpp>
@@ -16,6 +15,7 @@
 #include <radiosity/support/random.hpp>
 
 #include "catch.hpp"
+#include "seed.hpp"
 
 using radiosity::Color;
 using radiosity::ErrorEstimate;
@@ -89,7 +89,7 @@ ErrorEstimate measured(const KnownPicture& picture, std::uint64_t points, double
 }  // namespace
 
 TEST_CASE("pixel draw: the mean of weight times value is the mean over the picture, and no weight is above 2") {
-  const auto seed = std::random_device{}();
+  const auto seed = test::seed();
   INFO("seed " << seed);
   Random random{seed, 1};
   for (int trial = 0; trial < 5; ++trial) {
@@ -121,7 +121,7 @@ TEST_CASE("pixel draw: the mean of weight times value is the mean over the pictu
 }
 
 TEST_CASE("pixel draw: where a few pixels hold most of the energy and error, 95 % intervals hold the truth", "[accuracy]") {
-  const auto seed = std::random_device{}();
+  const auto seed = test::seed();
   INFO("seed " << seed);
   Random random{seed, 2};
   constexpr int trials = 1000;
@@ -141,7 +141,7 @@ TEST_CASE("pixel draw: where a few pixels hold most of the energy and error, 95 
 }
 
 TEST_CASE("pixel draw: a picture that is the same all over is measured as well as by even pixels") {
-  const auto seed = std::random_device{}();
+  const auto seed = test::seed();
   INFO("seed " << seed);
   Random random{seed, 3};
   double even = 0.0, drawn = 0.0;

@@ -29,6 +29,7 @@
 #include "many_scene.hpp"
 #include "roots.hpp"
 #include "scenes.hpp"
+#include "seed.hpp"
 #include "solved.hpp"
 
 using radiosity::DiscreteScene;
@@ -134,7 +135,7 @@ TEST_CASE("rays do not depend on the number of threads") {
 }
 
 TEST_CASE("rooms by stored rays: closed rows, no energy lost, and the radiosities of links", "[accuracy]") {
-  const auto seed = std::random_device{}();
+  const auto seed = test::seed();
   INFO("seed " << seed);
   std::mt19937_64 random{seed};
   for (const scenes::Things kind : {scenes::Things::boxes, scenes::Things::polygons, scenes::Things::mesh}) {
@@ -246,7 +247,7 @@ TEST_CASE("rays of small things are as good beside something far away") {
 
 // Two stacks of plates at gaps that are a hundredth to half of their width.
 TEST_CASE("narrow gaps: rows of form factors near 1 before they are closed, and the light of a closed room", "[accuracy]") {
-  const auto seed = std::random_device{}();
+  const auto seed = test::seed();
   INFO("seed " << seed);
   std::mt19937_64 random{seed};
   const auto between = [&](double lo, double hi) { return std::uniform_real_distribution<double>{lo, hi}(random); };

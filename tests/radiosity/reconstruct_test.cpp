@@ -11,6 +11,7 @@
 
 #include "catch.hpp"
 #include "radiosity/scenes.hpp"
+#include "seed.hpp"
 
 #include <brep/circulators.hpp>
 #include <brep/handles.hpp>
@@ -216,7 +217,7 @@ TEST_CASE("corners of the mesh have the normals of the true surface, each side o
 }
 
 TEST_CASE("corners of the mesh on the edges of blades have normals of their own side") {
-  const auto seed = std::random_device{}();
+  const auto seed = test::seed();
   INFO("seed " << seed);
   std::mt19937_64 random{seed};
   const auto uniform = [&](double a, double b) { return std::uniform_real_distribution<double>{a, b}(random); };
@@ -245,7 +246,7 @@ TEST_CASE("corners of the mesh on the edges of blades have normals of their own 
 
 // 1000 to 90 000 times the area of the leaves that have it, when a neighbour's light counted in a corner however small the neighbour was.
 TEST_CASE("reconstruction: the light of a few small leaves is not spread over leaves a thousand times as wide beside them") {
-  const auto seed = std::random_device{}();
+  const auto seed = test::seed();
   INFO("seed " << seed);
   radiosity::Random random{seed, 1};
   for (int turn = 0; turn < 20; ++turn) {
@@ -308,7 +309,7 @@ TEST_CASE("reconstruction: the light of a sliver, as long as the leaf beside it,
 }
 
 TEST_CASE("weighted reconstruction: over random facets it errs less than the constant radiosity of the leaves", "[accuracy]") {
-  const auto seed = std::random_device{}();
+  const auto seed = test::seed();
   INFO("seed " << seed);
   radiosity::Random random{seed, 0};
   for (int turn = 0; turn < 4; ++turn) {

@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <cstdint>
-#include <random>
 #include <vector>
 
 #include <glm/common.hpp>
@@ -18,11 +17,12 @@
 #include "catch.hpp"
 #include "lit_world.hpp"
 #include "scenes.hpp"
+#include "seed.hpp"
 
 // Corners are rounded as files have them, so that the mesh is not quite convex: its shadow is that of the exact one all the same, within
 // twice a strip around the outline as wide as the corners are off.
 TEST_CASE("direct light: a ball of rounded corners is cut out of the lamp by its outline", "[direct]") {
-  const auto seed = std::random_device{}();
+  const auto seed = test::seed();
   INFO("seed " << seed);
   radiosity::Random random{seed, 0};
   for (int k = 0; k < 6; ++k) {

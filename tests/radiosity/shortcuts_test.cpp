@@ -20,9 +20,10 @@
 #include <radiosity/scene/scene.hpp>
 
 #include "scenes.hpp"
+#include "seed.hpp"
 
 TEST_CASE("shortcuts: no bit changes where curved solids stick out through the walls of a room, nor whether the scene is closed") {
-  const auto seed = std::random_device{}();
+  const auto seed = test::seed();
   INFO("seed " << seed);
   std::mt19937_64 random{seed};
   const auto uniform = [&](double a, double b) { return std::uniform_real_distribution<>{a, b}(random); };
@@ -62,7 +63,7 @@ TEST_CASE("shortcuts: no bit changes where curved solids stick out through the w
 }
 
 TEST_CASE("patches of one plane exchange nothing, however small they are beside their coordinates") {
-  const auto seed = std::random_device{}();
+  const auto seed = test::seed();
   INFO("seed " << seed);
   std::mt19937_64 random{seed};
   const auto uniform = [&](double a, double b) { return std::uniform_real_distribution<>{a, b}(random); };

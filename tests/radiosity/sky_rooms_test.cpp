@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <random>
 #include <string>
 
 #include <glm/geometric.hpp>
@@ -25,6 +24,7 @@
 #include "catch.hpp"
 #include "many_scene.hpp"
 #include "scenes.hpp"
+#include "seed.hpp"
 
 using radiosity::Color;
 using radiosity::Random;
@@ -156,7 +156,7 @@ double traced_far_wall(const SkyHall& hall, Random& random) {
 }  // namespace
 
 TEST_CASE("rays: rooms get the light that comes in from the ground under a large sky", "[accuracy]") {
-  const auto seed = std::random_device{}();
+  const auto seed = test::seed();
   INFO("seed " << seed);
   Random random{seed, 1};
   // The light of one room is some 26 % off by the noise of rays at these settings (RMS), the mean of six some 11 %; when the rays had to
@@ -177,7 +177,7 @@ TEST_CASE("rays: rooms get the light that comes in from the ground under a large
 // Else the sky's light was spread over all of a wall, and its far part came out twice as bright as it is: log ratios of .74 +- .13, now of
 // .27 +- .11, by five runs.
 TEST_CASE("importance: the dark end of a hall that a large sky lights at the other end", "[accuracy]") {
-  const auto seed = std::random_device{}();
+  const auto seed = test::seed();
   INFO("seed " << seed);
   Random random{seed, 2};
   constexpr int halls = 2;

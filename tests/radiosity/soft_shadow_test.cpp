@@ -23,6 +23,7 @@
 
 #include "catch.hpp"
 #include "scenes.hpp"
+#include "seed.hpp"
 #include "solved.hpp"
 
 namespace {
@@ -62,7 +63,7 @@ double below(const radiosity::Scene& scene) {
 }  // namespace
 
 TEST_CASE("soft shadows: of a ball or a tube behind a straight edge a point sees what geometry says, without bias", "[lamps]") {
-  const auto seed = std::random_device{}();
+  const auto seed = test::seed();
   INFO("seed " << seed);
   std::mt19937 random{seed};
   std::uniform_real_distribution<> uniform;

@@ -39,6 +39,7 @@
 
 #include "catch.hpp"
 #include "scenes.hpp"
+#include "seed.hpp"
 
 namespace {
 
@@ -115,7 +116,7 @@ TEST_CASE("the area of superquadrics: an octahedron, a sphere, nearly a cube") {
 }
 
 TEST_CASE("long rooms: the number of links does not grow with the proportion") {
-  const auto seed = std::random_device{}();
+  const auto seed = test::seed();
   INFO("seed " << seed);
   std::mt19937_64 random{seed};
   for (int i = 0; i < 12; ++i) {
@@ -135,7 +136,7 @@ TEST_CASE("long rooms: the number of links does not grow with the proportion") {
 }
 
 TEST_CASE("long rooms of slabs: what walls cut out of a long face is cut across, too") {
-  const auto seed = std::random_device{}();
+  const auto seed = test::seed();
   INFO("seed " << seed);
   std::mt19937_64 random{seed};
   const auto uniform = [&](double a, double b) { return std::uniform_real_distribution<>{a, b}(random); };
@@ -180,7 +181,7 @@ TEST_CASE("long rooms of slabs: what walls cut out of a long face is cut across,
 }
 
 TEST_CASE("pairs grow like the number of objects: of those at one place or inside each other only what shows is refined") {
-  const auto seed = std::random_device{}();
+  const auto seed = test::seed();
   INFO("seed " << seed);
   std::mt19937_64 random{seed};
   const auto uniform = [&](double a, double b) { return std::uniform_real_distribution<>{a, b}(random); };
@@ -207,7 +208,7 @@ TEST_CASE("pairs grow like the number of objects: of those at one place or insid
 }
 
 TEST_CASE("what is buried before refinement is what the exposure finds") {
-  const auto seed = std::random_device{}();
+  const auto seed = test::seed();
   INFO("seed " << seed);
   std::mt19937_64 random{seed};
   const auto uniform = [&](double a, double b) { return std::uniform_real_distribution<>{a, b}(random); };
@@ -239,7 +240,7 @@ TEST_CASE("what is buried before refinement is what the exposure finds") {
 }
 
 TEST_CASE("superquadrics of any exponents that are accepted are refined into a bounded number of patches") {
-  const auto seed = std::random_device{}();
+  const auto seed = test::seed();
   INFO("seed " << seed);
   std::mt19937_64 random{seed};
   for (int i = 0; i < 10; ++i) {
@@ -263,7 +264,7 @@ TEST_CASE("superquadrics of any exponents that are accepted are refined into a b
 }
 
 TEST_CASE("rings: no crossing is looked for where the line passes the tube once, and the answer is that of the spans") {
-  const auto seed = std::random_device{}();
+  const auto seed = test::seed();
   INFO("seed " << seed);
   std::mt19937_64 random{seed};
   const auto uniform = [&](double a, double b) { return std::uniform_real_distribution<>{a, b}(random); };
@@ -301,7 +302,7 @@ TEST_CASE("what is not cut at walls because there are too many is counted") {
 }
 
 TEST_CASE("segments on an open mesh see the crossings of the whole line, as far as they lie on them, bit for bit") {
-  const auto seed = std::random_device{}();
+  const auto seed = test::seed();
   INFO("seed " << seed);
   std::mt19937_64 random{seed};
   const auto uniform = [&](double a, double b) { return std::uniform_real_distribution<>{a, b}(random); };

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <random>
 #include <vector>
 
 #include <radiosity/rays/stored_rays.hpp>
@@ -15,6 +14,7 @@
 
 #include "catch.hpp"
 #include "roots.hpp"
+#include "seed.hpp"
 
 using roots::closed_room;
 using roots::leaves_of;
@@ -23,7 +23,7 @@ using roots::roots_of;
 // A node gets more rays for links if some of its 16 rays for spacing meet something bright. If its rays for links depended on those, nodes
 // that miss a small bright thing by chance would miss it again, and the mean over all nodes would be too low.
 TEST_CASE("what rays for links meet does not depend on what rays for spacing have met") {
-  const std::uint64_t seed = std::random_device{}();
+  const std::uint64_t seed = test::seed();
   CAPTURE(seed);
   const radiosity::Scene scene = closed_room({});
   const auto discrete = roots_of(scene);

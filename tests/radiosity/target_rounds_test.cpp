@@ -8,7 +8,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <random>
 #include <utility>
 #include <vector>
 
@@ -24,6 +23,7 @@
 
 #include "catch.hpp"
 #include "scenes.hpp"
+#include "seed.hpp"
 #include "solved.hpp"
 
 using radiosity::Color;
@@ -73,7 +73,7 @@ RoundsAsked rounds_to(double wanted, radiosity::Options options, const Scene& sc
 }  // namespace
 
 TEST_CASE("error target: the rounds are the same for any target as far as they go, and what ended them is told", "[slow]") {
-  const auto seed = std::random_device{}();
+  const auto seed = test::seed();
   INFO("seed " << seed);
   radiosity::Random random{seed, 0};
   for (int k = 0; k < 6; ++k) {
@@ -101,7 +101,7 @@ TEST_CASE("error target: the rounds are the same for any target as far as they g
 }
 
 TEST_CASE("error target: however the noise of the audits falls, the rounds are the same and end no sooner for a tighter one") {
-  const auto seed = std::random_device{}();
+  const auto seed = test::seed();
   INFO("seed " << seed);
   radiosity::Random random{seed, 0};
   for (int k = 0; k < 200; ++k) {
@@ -147,7 +147,7 @@ TEST_CASE("error target: however the noise of the audits falls, the rounds are t
 }
 
 TEST_CASE("error target: the verdict on a picture is that of its last audit, whatever those of the rounds found") {
-  const auto seed = std::random_device{}();
+  const auto seed = test::seed();
   INFO("seed " << seed);
   radiosity::Random random{seed, 0};
   int met[2] = {0, 0};

@@ -21,6 +21,7 @@
 
 #include "catch.hpp"
 #include "scenes.hpp"
+#include "seed.hpp"
 #include "solved.hpp"
 
 namespace {
@@ -88,7 +89,7 @@ radiosity::Viewpoint all_around(const glm::dvec3& eye) {
 }  // namespace
 
 TEST_CASE("a picture of a room: the meadow around it, however large, takes nothing of what the room needs", "[slow]") {
-  const auto seed = std::random_device{}();
+  const auto seed = test::seed();
   INFO("seed " << seed);
   std::mt19937_64 random{seed};
   const auto uniform = [&](double a, double b) { return std::uniform_real_distribution<double>{a, b}(random); };
@@ -129,7 +130,7 @@ TEST_CASE("a picture of a room: the meadow around it, however large, takes nothi
 }
 
 TEST_CASE("a picture under a roof hardly depends on how large the plain around it is", "[accuracy]") {
-  const auto seed = std::random_device{}();
+  const auto seed = test::seed();
   INFO("seed " << seed);
   std::mt19937_64 random{seed};
   const auto uniform = [&](double a, double b) { return std::uniform_real_distribution<double>{a, b}(random); };
