@@ -29,7 +29,8 @@ struct Sample {
 // larger |end|, or where the value is 0. `s`: first guess. Two cases would make bisection take fifty evaluations, one per bit:
 // - If f behaves like a root of the distance from a or b, its zero may be many powers of two away, and Newton's steps leave the bracket or
 //   grow endlessly. So the distance from that end is bisected in its logarithm (geometric mean).
-// - At the zero Newton's steps are mere rounding and leave the bracket as often as not. Then a point slightly beyond the zero closes it.
+// - At the zero Newton's steps are mere rounding and leave the bracket as often as not. Then a point slightly beyond the zero closes it;
+//   where the rounding of f hides its sign there, too, one four times as far.
 template <class F>
 [[nodiscard]] double bracketed_root(F&& f, double a, double b, bool rising, double s) {
   const double start = a, end = b, shortest = eps_root * std::max(std::abs(a), std::abs(b)), rounding = 8.0 * shortest;
@@ -38,28 +39,28 @@ template <class F>
     return far(least, most) ? std::sqrt(std::max(least, shortest) * most) : 0.5 * (least + most);
   };
   double last = b - a;
-  bool beyond = false;  // was s placed beyond the zero that Newton's steps had found?
+  double beyond = 0.0;  // how far s was placed beyond the zero that Newton's steps had found
   for (int i = 0; i < 200; ++i) {
     const Sample at = f(s);
     if (at.value == 0.0) { return s; }
     const bool before = (at.value < 0.0) == rising;
     (before ? a : b) = s;
     if (b - a <= 2.0 * shortest) { return a + 0.5 * (b - a); }
-    const double step = at.value / at.slope;
+    const double step = at.value / at.slope, past = std::max({rounding, 2.0 * std::abs(step), 4.0 * beyond});
     double next = s - step;
     if (next > a && next < b && std::abs(next - s) <= 0.5 * last) {
       if (std::abs(next - s) <= shortest) { return next; }
-      beyond = false;
-    } else if (!beyond && std::abs(step) <= rounding && b - a > 4.0 * rounding) {
-      next = before ? s + rounding : s - rounding;
-      beyond = true;
+      beyond = 0.0;
+    } else if (std::abs(step) <= 16.0 * rounding && b - a > 4.0 * past) {
+      beyond = past;
+      next = before ? s + past : s - past;
     } else {
       const bool to_start = next <= a || (next < b && a > start && far(a - start, b - start));
       const bool to_end = next >= b || (next > a && b < end && far(end - b, end - a));
       next = to_start == to_end ? a + 0.5 * (b - a) : to_start ? start + between(a - start, b - start) : end - between(end - b, end - a);
       if (!(next > a && next < b)) { next = a + 0.5 * (b - a); }
       if (!(next > a && next < b)) { return next; }
-      beyond = false;
+      beyond = 0.0;
     }
     last = std::abs(next - s);
     s = next;
