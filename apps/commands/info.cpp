@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: MIT
 // halflight info SCENE: says what a scene contains, without solving it.
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include <brep/builder_input.hpp>
 #include <brep/circulators.hpp>
+#include <brep/geometry.hpp>
 #include <brep/handles.hpp>
 
 #include <raycast/box.hpp>
@@ -12,6 +17,7 @@
 #include <radiosity/hierarchy/surface.hpp>
 #include <radiosity/rays/ray_choice.hpp>
 #include <radiosity/refinement/cluster_choice.hpp>
+#include <radiosity/refinement/lamp_choice.hpp>
 #include <radiosity/scene/bounds.hpp>
 #include <radiosity/scene/material.hpp>
 #include <radiosity/scene/scene.hpp>
@@ -81,27 +87,42 @@ std::string cameras(const SceneFile& file) {
   return out + and_more(file.cameras.size(), longest_list);
 }
 
-// The plan of a run, before any light is computed.
-std::string plan(const radiosity::Scene& scene, const radiosity::Prepared& prepared) {
-  const radiosity::Plan& plan = prepared.plan;
+radiosity::FaceCounts face_counts(const radiosity::Scene& scene, const radiosity::Prepared& prepared) {
   const std::vector<radiosity::InputSurface> inputs = radiosity::surfaces(scene);
-  std::size_t faces = 0;
-  std::size_t lamps = 0;
+  std::vector<radiosity::Color> emission;
+  for (const radiosity::InputSurface& input : inputs) { emission.push_back(scene.materials[input.material].emission); }
+  std::vector<double> areas(inputs.size(), 0.0);
+  std::vector<std::uint64_t> counts(inputs.size(), 0);  // of input faces
   for (const radiosity::Surface& surface : prepared.surfaces) {
     for (const std::vector<brep::FaceId>& parts : radiosity::input_faces(surface)) {
       const std::uint32_t input = surface.first_surface + surface.brep.data(parts.front()).sheet;
-      ++faces;
-      lamps += radiosity::is_black(scene.materials[inputs[input].material].emission) ? 0 : 1;
+      for (const brep::FaceId part : parts) { areas[input] += brep::area(surface.brep, part); }
+      ++counts[input];
     }
   }
-  std::string out = "input faces: " + std::to_string(faces) + "\n";
+  const std::vector<bool> lamps = radiosity::choose_lamps(areas, emission, prepared.objects.bounds());
+  radiosity::FaceCounts faces;
+  for (std::size_t s = 0; s < inputs.size(); ++s) {
+    faces.all += counts[s];
+    faces.shining += radiosity::is_black(emission[s]) ? 0 : counts[s];
+    faces.lamps += lamps[s] ? counts[s] : 0;
+  }
+  faces.uncut_shining = faces.shining;
+  return faces;
+}
+
+// The plan of a run, before any light is computed.
+std::string plan(const radiosity::Scene& scene, const radiosity::Prepared& prepared) {
+  const radiosity::Plan& plan = prepared.plan;
+  const radiosity::FaceCounts faces = face_counts(scene, prepared);
+  std::string out = "input faces: " + std::to_string(faces.all) + "\n";
   out += std::string("closed: ") + (plan.closed ? "proven, no light leaves the scene\n" : "not proven\n");
   out +=
       "can stand between two others: " + std::to_string(plan.occluders) + " of " + std::to_string(prepared.surfaces.size()) + " objects\n";
   out += "left out when rendered, as far as known without solving:\n";
   for (const radiosity::LeftOut& item : plan.left_out) { out += "  " + item.what + ": " + item.why + "\n"; }
-  const radiosity::RayChoice rays = radiosity::choose_rays(faces, lamps, lamps, {});
-  const radiosity::ClusterChoice clusters = radiosity::choose_clusters(faces, {});
+  const radiosity::RayChoice rays = radiosity::choose_rays(faces, {});
+  const radiosity::ClusterChoice clusters = radiosity::choose_clusters(faces.all, {});
   if (!rays.cast) {
     out += "  stored rays for the light between surfaces that do not shine: " + rays.reason +
            (rays.few ? "; unless a run finds that lamps hide what they light most from the rest" : "") + "\n";

@@ -249,6 +249,29 @@ namespace detail {
   return kind;
 }
 
+template <class Visit>
+void visit_faces(const Hierarchy& hierarchy, const Node& cluster, const Visit& visit) {
+  for (std::uint32_t c = cluster.first_child; c < cluster.first_child + cluster.child_count; ++c) {
+    hierarchy[c].is_cluster() ? visit_faces(hierarchy, hierarchy[c], visit) : visit(hierarchy[c]);
+  }
+}
+
+// Makes the sphere of each cluster one around its faces. One around the spheres of its children, for a bulb, is up to twice as wide.
+HALFLIGHT_INLINE void surround_faces(Hierarchy& hierarchy) {
+  for (Node& node : hierarchy) {
+    if (!node.is_cluster()) { continue; }
+    raycast::Box box;
+    visit_faces(hierarchy, node, [&](const Node& face) {
+      box.extend(face.centre - face.radius);
+      box.extend(face.centre + face.radius);
+    });
+    node.centre = box.centre();
+    node.radius = 0.0;
+    visit_faces(hierarchy, node,
+                [&](const Node& face) { node.radius = std::max(node.radius, glm::length(face.centre - node.centre) + face.radius); });
+  }
+}
+
 }  // namespace detail
 
 HALFLIGHT_INLINE Hierarchy make_lamp_clusters(std::vector<Surface>& surfaces, const Hierarchy& roots, const std::vector<Color>& exitance) {
@@ -266,7 +289,9 @@ HALFLIGHT_INLINE Hierarchy make_lamp_clusters(std::vector<Surface>& surfaces, co
     const Grouping tree = detail::group_boxes(boxes);
     tops.push_back(writer.enter(tree, tree.tops.front(), numbers));
   }
-  return writer.write(tops);
+  Hierarchy hierarchy = writer.write(tops);
+  detail::surround_faces(hierarchy);
+  return hierarchy;
 }
 
 HALFLIGHT_INLINE double ShownAreas::of(const Node& cluster, const Aim& towards) const {

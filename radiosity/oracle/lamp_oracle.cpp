@@ -27,7 +27,7 @@ HALFLIGHT_INLINE Decision LampOracle::operator()(const Question& question) const
   const glm::dvec3 d = lamp.centre - to.centre;
   const double r = glm::length(d);
   const double extent = lamp.radius + to.radius;
-  if (!(r >= cluster_separation * extent)) { return can_split && to.radius > lamp.radius ? split : open_lamp; }
+  if (!(r >= lamp_separation * extent)) { return can_split && to.radius > lamp.radius ? split : open_lamp; }
   const double seen = most_shown(to, question.shown, d / r, extent / r);
   return can_split && seen > question.epsilon * std::numbers::pi * (r * r + seen) ? split : Decision::link;
 }

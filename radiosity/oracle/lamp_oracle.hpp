@@ -9,6 +9,9 @@
 
 namespace radiosity {
 
+// Least distance of the centres, relative to the sum of the radii. With 1.5, bulbs in their shades had errors of 4 % instead of 3.
+inline constexpr double lamp_separation = 2.0;
+
 // For two different nodes of which one is a cluster of lamps.
 struct LampOracle {
   [[nodiscard]] Decision operator()(const Question& question) const;

@@ -36,25 +36,38 @@ inline constexpr std::uint64_t rays_from = 100;
 // light (RMS) by links, 8 % by rays (dim_rooms_test).
 inline constexpr double least_share_beside_lamps = 4.0;
 
-// `faces`: input faces, including `lamps` emitting ones; `uncut`: emitting faces before long ones were cut, whose parts are linked one by
-// one while they are few.
-[[nodiscard]] inline RayChoice choose_rays(std::uint64_t faces, std::uint64_t lamps, std::uint64_t uncut, const Options& options) {
+// Numbers of input faces.
+struct FaceCounts {
+  std::uint64_t all = 0;
+  std::uint64_t shining = 0;        // those that emit
+  std::uint64_t lamps = 0;          // those of them that are lamps (lamp_choice.hpp)
+  std::uint64_t uncut_shining = 0;  // those that emit before long ones were cut, whose parts are linked one by one while they are few
+};
+
+[[nodiscard]] inline RayChoice choose_rays(const FaceCounts& faces, const Options& options) {
   if (options.indirect == Indirect::links) { return {false, "all light was asked to go by links"}; }
   if (options.oracle) { return {false, "an oracle was supplied to choose all links"}; }
   if (options.refinement == Refinement::a_posteriori) { return {false, "BF-refinement splits links by what they carry"}; }
   if (options.solver == Solver::gauss_seidel || options.solver == Solver::southwell) {
     return {false, "Gauss-Seidel and Southwell go through the links of one patch at a time"};
   }
-  if (options.indirect == Indirect::automatic && faces < rays_from) {
-    return {false, "they pay from some " + std::to_string(rays_from) + " input faces on, there are " + std::to_string(faces), false, true};
-  }
   constexpr std::uint64_t most_pairs = 4'000'000;
-  // Most of the interreflected light is that between the other faces. Under a sky of many faces, links made a street 30 % too bright, a
-  // church 60 %.
-  if (options.indirect == Indirect::automatic && 2 * lamps > faces && faces - lamps < rays_from && lamps * faces <= most_pairs) {
-    return {false, "most input faces shine, and are few enough to be linked", false, true};
+  const std::uint64_t others = faces.all - faces.shining;
+  const bool most_shine = 2 * faces.shining > faces.all, many_pairs = faces.shining * faces.all > most_pairs;
+  // Rays pay for lamps of many faces, however few the other faces are, because with rays these lamps are linked cluster by cluster. A bulb
+  // of 1152 faces in its shade, with 40 other faces, took 50 s by links, and its shade was 14 % too dark; by rays 11 s and 4 %.
+  if (options.indirect == Indirect::automatic && faces.lamps <= most_single_lamps) {
+    if (faces.all < rays_from) {
+      return {false, "they pay from some " + std::to_string(rays_from) + " input faces on, there are " + std::to_string(faces.all), false,
+              true};
+    }
+    // Most of the interreflected light is that between the other faces. Under a sky of many faces, links made a street 30 % too bright, a
+    // church 60 %.
+    if (most_shine && others < rays_from && !many_pairs) {
+      return {false, "most input faces shine, and are few enough to be linked", false, true};
+    }
   }
-  return {true, {}, uncut > most_single_lamps || lamps * faces > most_pairs || 2 * lamps > faces};
+  return {true, {}, faces.uncut_shining > most_single_lamps || many_pairs || most_shine};
 }
 
 }  // namespace radiosity

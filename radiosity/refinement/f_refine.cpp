@@ -22,6 +22,7 @@
 #include <radiosity/refinement/discrete_scene.hpp>
 #include <radiosity/refinement/first_pairs.hpp>
 #include <radiosity/refinement/measured_light.hpp>
+#include <radiosity/refinement/whole_lamps.hpp>
 #include <radiosity/scene/material.hpp>
 #include <radiosity/scene/options.hpp>
 #include <radiosity/support/memory.hpp>
@@ -80,6 +81,7 @@ struct FRefinement {
         min_area{largest_linked * to.min_area * light.scene_area()},
         light_min_area{0.25 * to.min_area * light.scene_area() * finer_for_light(to) * finer_for_light(to)},
         measured{of, proofs.buried(), light.scene_area(), to.light_epsilon, light_min_area / 16.0},
+        whole_lamps{of.hierarchy},
         pairs(of.budget.arrays) {
     result.linked = NodePairs(of.budget.arrays);
     result.occluders = OccluderLists(of.budget.arrays);
@@ -109,6 +111,7 @@ struct FRefinement {
   double min_area;  // of a leaf that is split for a form factor, in squared units of the frame
   double light_min_area;
   MeasuredLight measured;
+  WholeLamps whole_lamps;
   NodePairs pairs;                 // open pairs
   std::vector<bool> stuck;         // leaves that the BRep refused to split
   std::uint32_t nodes_before = 0;  // at the beginning of split_leaves()
@@ -142,16 +145,27 @@ HALFLIGHT_INLINE std::vector<Decision> ask_oracles(FRefinement& state) {
         return within_min_area(question, of_lamps ? LampOracle{}(question) : state.fineness.oracle(question));
       },
       [&](std::size_t i, const raycast::OccluderList& list, Decision& decision) {
-        if (decision != Decision::link || !(state.fineness.light_epsilon > 0.0)) { return; }
-        Question question{scene.hierarchy, state.pairs[i].p, state.pairs[i].q, state.shown, light_epsilon_of_emission(state.fineness)};
+        const NodePair& pair = state.pairs[i];
+        if (!(state.fineness.light_epsilon > 0.0)) { return; }
+        const bool opens_lamp = state.whole_lamps.opens(pair, decision);
+        if ((decision != Decision::link && !opens_lamp) || state.whole_lamps.settled(pair)) { return; }
+        Question question{scene.hierarchy, pair.p, pair.q, state.shown, light_epsilon_of_emission(state.fineness)};
+        if (opens_lamp && state.whole_lamps.reaches_in(pair)) {
+          question.min_area = state.min_area_of(pair.p, pair.q);
+          question.stuck = &state.stuck;
+          decision = state.whole_lamps.split_within(question, decision);
+          return;
+        }
         question.min_area = state.light_min_area;
         question.between = &list;
         question.rays = &rays[i];
         question.importance = state.fineness.importance;
-        const bool measured = state.measured.receiver(state.pairs[i]) != no_node;
-        decision = measured ? state.measured(state.pairs[i]) : state.light(question);
+        const bool measured = state.measured.receiver(pair) != no_node;
+        const Decision answer = measured ? state.measured(pair) : state.light(question);
+        if (!opens_lamp || answer != Decision::link) { decision = answer; }
       });
   for (const RayCount& r : rays) { state.result.rays += r; }
+  state.whole_lamps.settle(state.pairs, decisions);
   return decisions;
 }
 

@@ -8,24 +8,33 @@
 
 #include <brep/inline.hpp>
 
+#include <raycast/box.hpp>
+
 #include <radiosity/hierarchy/hierarchy.hpp>
 #include <radiosity/refinement/discrete_scene.hpp>
 #include <radiosity/scene/material.hpp>
 
 namespace radiosity {
 
-HALFLIGHT_INLINE std::vector<bool> choose_lamps(const DiscreteScene& scene) {
-  double area = 0.0;
-  double power = 0.0;
-  for (std::size_t i = 0; i < scene.hierarchy.size(); ++i) {
-    if (!is_input_face(scene.hierarchy, i)) { continue; }
-    area += scene.hierarchy[i].area;
-    power += scene.hierarchy[i].area * brightest(scene.emission[scene.hierarchy[i].surface]);
+HALFLIGHT_INLINE std::vector<bool> choose_lamps(const std::vector<double>& areas, const std::vector<Color>& emission,
+                                                const raycast::Box& bounds) {
+  double area = 0.0, power = 0.0;
+  for (std::size_t s = 0; s < areas.size(); ++s) {
+    area += areas[s];
+    power += areas[s] * brightest(emission[s]);
   }
-  area = std::max(area, 2.0 * scene.objects.bounds().half_area());
+  area = std::max(area, 2.0 * bounds.half_area());
   std::vector<bool> lamps;
-  for (const Color& emission : scene.emission) { lamps.push_back(brightest(emission) * area > least_lamp_contrast * power); }
+  for (const Color& e : emission) { lamps.push_back(brightest(e) * area > least_lamp_contrast * power); }
   return lamps;
+}
+
+HALFLIGHT_INLINE std::vector<bool> choose_lamps(const DiscreteScene& scene) {
+  std::vector<double> areas(scene.emission.size(), 0.0);
+  for (std::size_t i = 0; i < scene.hierarchy.size(); ++i) {
+    if (is_input_face(scene.hierarchy, i)) { areas[scene.hierarchy[i].surface] += scene.hierarchy[i].area; }
+  }
+  return choose_lamps(areas, scene.emission, scene.objects.bounds());
 }
 
 HALFLIGHT_INLINE std::vector<bool> lamp_nodes(const DiscreteScene& scene) {

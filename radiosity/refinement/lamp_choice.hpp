@@ -5,7 +5,10 @@
 
 #include <vector>
 
+#include <raycast/box.hpp>
+
 #include <radiosity/refinement/discrete_scene.hpp>
+#include <radiosity/scene/material.hpp>
 
 namespace radiosity {
 
@@ -15,6 +18,9 @@ inline constexpr double least_lamp_contrast = 4.0;
 // By input surface: is it a lamp? In an open scene the mean emission is taken over the box around the scene, because rays rarely hit a
 // small emitter in it.
 [[nodiscard]] std::vector<bool> choose_lamps(const DiscreteScene& scene);
+// The same from the area and the emission of each input surface, and the box around the scene.
+[[nodiscard]] std::vector<bool> choose_lamps(const std::vector<double>& areas, const std::vector<Color>& emission,
+                                             const raycast::Box& bounds);
 
 // The nodes of lamps, and the clusters that contain nothing else. Empty if there are none.
 [[nodiscard]] std::vector<bool> lamp_nodes(const DiscreteScene& scene);

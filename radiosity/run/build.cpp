@@ -52,19 +52,21 @@ namespace detail {
 HALFLIGHT_INLINE void choose_ways_of_light(Run& run, std::uint64_t uncut_lamps) {
   const Options& options = run.options;
   DiscreteScene& scene = run.scene;
-  std::uint64_t faces = 0;
-  std::uint64_t lamps = 0;
+  const std::vector<bool> lamps = choose_lamps(scene);  // by input surface
+  FaceCounts faces{.uncut_shining = uncut_lamps};
   for (std::size_t i = 0; i < scene.hierarchy.size(); ++i) {
     if (!is_input_face(scene.hierarchy, i)) { continue; }
-    ++faces;
-    lamps += is_black(scene.emission[scene.hierarchy[i].surface]) ? 0 : 1;
+    const std::uint32_t surface = scene.hierarchy[i].surface;
+    ++faces.all;
+    faces.shining += is_black(scene.emission[surface]) ? 0 : 1;
+    faces.lamps += lamps[surface] ? 1 : 0;
   }
-  if (run.needs_links()) { run.rays = choose_rays(faces, lamps, uncut_lamps, options); }
+  if (run.needs_links()) { run.rays = choose_rays(faces, options); }
   if (run.rays.many_lamps) {
-    scene.lamps = choose_lamps(scene);
-    if (std::find(scene.lamps.begin(), scene.lamps.end(), true) != scene.lamps.end()) {
-      std::vector<Color> exitance(scene.lamps.size(), Color{0.0});
-      for (std::size_t s = 0; s < exitance.size(); ++s) { exitance[s] = scene.lamps[s] ? scene.emission[s] : Color{0.0}; }
+    scene.lamps = lamps;
+    if (faces.lamps > 0) {
+      std::vector<Color> exitance(lamps.size(), Color{0.0});
+      for (std::size_t s = 0; s < exitance.size(); ++s) { exitance[s] = lamps[s] ? scene.emission[s] : Color{0.0}; }
       scene.hierarchy = make_lamp_clusters(scene.surfaces, scene.hierarchy, exitance);
     }
   }

@@ -168,7 +168,9 @@ TEST_CASE("a picture under a roof hardly depends on how large the plain around i
 }
 
 TEST_CASE("light goes by stored rays, too, where most input faces shine: under a sky of many faces") {
-  CHECK(radiosity::choose_rays(1000, 700, 700, {}).cast);
-  CHECK(radiosity::choose_rays(1000, 20, 20, {}).cast);
-  CHECK_FALSE(radiosity::choose_rays(700, 690, 690, {}).cast);  // a lamp of many faces, and little else
+  CHECK(radiosity::choose_rays({.all = 1000, .shining = 700, .lamps = 0, .uncut_shining = 700}, {}).cast);
+  CHECK(radiosity::choose_rays({.all = 1000, .shining = 20, .lamps = 20, .uncut_shining = 20}, {}).cast);
+  CHECK_FALSE(radiosity::choose_rays({.all = 700, .shining = 690, .lamps = 0, .uncut_shining = 690}, {}).cast);  // little below the sky
+  const radiosity::RayChoice bulb = radiosity::choose_rays({.all = 700, .shining = 690, .lamps = 690, .uncut_shining = 690}, {});
+  CHECK((bulb.cast && bulb.many_lamps));
 }
