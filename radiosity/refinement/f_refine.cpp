@@ -40,8 +40,8 @@ HALFLIGHT_INLINE std::vector<bool> sending_roots(const DiscreteScene& scene, con
   const Hierarchy& roots = scene.hierarchy;
   std::vector<bool> sends(roots.size(), false), reflects(roots.size(), false);
   for (std::size_t i = 0; i < roots.size(); ++i) {
-    sends[i] = !is_black(scene.emission[roots[i].surface]);
-    reflects[i] = !is_black(scene.reflectance[roots[i].surface]);
+    sends[i] = roots[i].is_cluster() || !is_black(scene.emission[roots[i].surface]);  // a cluster, as only lamps have
+    reflects[i] = !roots[i].is_cluster() && !is_black(scene.reflectance[roots[i].surface]);
   }
   for (bool grew = true; grew;) {
     grew = false;

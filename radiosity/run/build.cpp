@@ -70,8 +70,13 @@ HALFLIGHT_INLINE void choose_ways_of_light(Run& run, std::uint64_t uncut_lamps) 
       scene.hierarchy = make_lamp_clusters(scene.surfaces, scene.hierarchy, exitance);
     }
   }
-  run.clusters = run.rays.cast ? ClusterChoice{false, "between surfaces that do not shine light goes by stored rays"}
-                               : choose_clusters(scene.hierarchy.size(), options);
+  if (run.rays.cast) {
+    run.clusters = {false, "between surfaces that do not shine light goes by stored rays"};
+  } else if (run.rays.many_lamps) {
+    run.clusters = {false, "lamps of many faces have clusters of their own"};
+  } else {
+    run.clusters = choose_clusters(scene.hierarchy.size(), options);
+  }
   if (run.clusters.build) { scene.hierarchy = make_clusters(scene.surfaces, scene.hierarchy); }
   run.solution.audit.clusters = static_cast<std::uint64_t>(
       std::count_if(scene.hierarchy.begin(), scene.hierarchy.end(), [](const Node& n) { return n.is_cluster(); }));

@@ -107,7 +107,9 @@ HALFLIGHT_INLINE void refine_by_forms(Run& run) {
     audit.reflected_share = reflected_light(run.scene, *run.tracer);
     run.importance = importance_of_view(run);
     const bool beside_lamps = *audit.reflected_share > least_share_beside_lamps;
-    if (run.rays.few && (beside_lamps || lit_through_openings(run.importance)) && !run.clusters.build) { run.rays = RayChoice{true, {}}; }
+    if (run.rays.few && (beside_lamps || lit_through_openings(run.importance)) && !run.clusters.build) {
+      run.rays = RayChoice{true, {}, run.rays.many_lamps};
+    }
   }
   audit.lit_part = lit_part(run);
   run.refined = refined_by_forms(run);
