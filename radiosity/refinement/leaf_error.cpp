@@ -57,10 +57,11 @@ HALFLIGHT_INLINE LeafErrors estimate_leaf_errors(const DiscreteScene& scene, con
     const Link& link = links[k];
     const double times = each.empty() ? 1.0 : each[k];
     const double exchange = static_cast<double>(link.exchange);
-    if (hierarchy[link.p].is_cluster() || hierarchy[link.q].is_cluster()) { continue; }
-    if (!(exchange > 0.0) || !(area[link.p] > 0.0) || !(area[link.q] > 0.0)) { continue; }
-    arrives(link.p, exchange, radiosity[link.q], link.shape_p.gradient(), times);
-    arrives(link.q, exchange, radiosity[link.p], link.shape_q.gradient(), times);
+    const bool p_cluster = hierarchy[link.p].is_cluster(), q_cluster = hierarchy[link.q].is_cluster();
+    if ((p_cluster || q_cluster) && scene.clustered()) { continue; }  // of clusters only those of lamps have gradients at the other end
+    if (!(exchange > 0.0) || !(p_cluster || area[link.p] > 0.0) || !(q_cluster || area[link.q] > 0.0)) { continue; }
+    if (!p_cluster) { arrives(link.p, exchange, radiosity[link.q], link.shape_p.gradient(), times); }
+    if (!q_cluster) { arrives(link.q, exchange, radiosity[link.p], link.shape_q.gradient(), times); }
   }
   errors.squares.assign(hierarchy.size(), 0.0f);
   for (std::size_t i = 0; i < hierarchy.size(); ++i) {
