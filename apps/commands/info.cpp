@@ -127,9 +127,10 @@ std::string plan(const radiosity::Scene& scene, const radiosity::Prepared& prepa
     out += "  stored rays for the light between surfaces that do not shine: " + rays.reason +
            (rays.few ? "; unless a run finds that lamps hide what they light most from the rest" : "") + "\n";
   }
-  if (rays.cast || !clusters.build) {
-    out += "  clusters above the input faces: " + (rays.cast ? "light goes by stored rays" : clusters.reason) + "\n";
-  }
+  const std::string without_clusters = rays.cast         ? "light goes by stored rays"
+                                       : rays.many_lamps ? "lamps of many faces have clusters of their own"
+                                                         : clusters.reason;
+  if (!without_clusters.empty()) { out += "  clusters above the input faces: " + without_clusters + "\n"; }
   return out;
 }
 
