@@ -87,6 +87,7 @@ std::string cameras(const SceneFile& file) {
   return out + and_more(file.cameras.size(), longest_list);
 }
 
+// The input faces of a run, as they are before it cuts long ones.
 radiosity::FaceCounts face_counts(const radiosity::Scene& scene, const radiosity::Prepared& prepared) {
   const std::vector<radiosity::InputSurface> inputs = radiosity::surfaces(scene);
   std::vector<radiosity::Color> emission;

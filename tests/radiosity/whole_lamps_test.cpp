@@ -60,18 +60,19 @@ radiosity::Node sphere(double x, double radius, double area) {
 
 }  // namespace
 
-// A leaf of the shade sees half of the bulb. Found: 15 to 50 links a leaf, errors of 3 to 7 %; with 1152 faces and links between all input
-// faces, 140 links a leaf and an error of 14 %.
-TEST_CASE("a bulb in its shade: the links of a leaf are few, however many faces the bulb has, and the error does not grow",
+// Found: 0.1 to 0.9 million links, 8 to 50 a leaf, errors of 3 to 7 %. Where the light oracle is asked about each face instead: 0.7 million
+// with 120 faces at a gap of 0.3, 1.6 with 960, 3.5 with 2024; with links between all faces of a bulb of 1152 in a cone, an error of 14 %.
+TEST_CASE("a bulb in its shade: a million links are enough, however many faces the bulb has, at an error of some per cent",
           "[lamps][accuracy]") {
   const std::uint32_t seed = test::seed();
   radiosity::Random random{seed, 0};
   const double gap = 0.2 + 0.6 * random.uniform();
-  for (const std::uint32_t n : {6u, 16u}) {  // 120 and 960 faces
+  for (const std::uint32_t n : {6u, 16u, 23u}) {  // 120, 960 and 2024 faces
     const radiosity::Solution solution =
         scenes::solved(bulb_in_tube(n, gap), {.epsilon = 0.01, .min_area = 2e-4, .audit_points = 1000, .threads = 1, .seed = seed});
     REQUIRE(solution.audit.leaf_error);
     CAPTURE(seed, gap, n, solution.links.size(), solution.audit.leaves, solution.audit.leaf_error->relative_l2);
+    CHECK(solution.links.size() < (n == 6 ? 400'000u : 1'100'000u));
     CHECK(static_cast<double>(solution.links.size()) < 80.0 * static_cast<double>(solution.audit.leaves));
     CHECK(solution.audit.leaf_error->low < 0.09);
   }
