@@ -55,8 +55,8 @@ struct FaceCounts {
   const std::uint64_t others = faces.all - faces.shining;
   const bool most_shine = 2 * faces.shining > faces.all, many_pairs = faces.shining * faces.all > most_pairs;
   if (options.indirect == Indirect::automatic) {
-    // Lamps of many faces have clusters whether rays are cast or not. Without, a bulb of 1152 faces in its shade took 56 s, and its shade was
-    // 14 % too dark; with these, and rays because it is lit beside the lamp, 5 s and 4 %.
+    // Lamps of many faces have clusters whether rays are cast or not. Without, a bulb of 1152 faces in its shade took 56 s, and the shade
+    // was 14 % too dark; with these, and rays because it is lit beside the lamp, 5 s and 4 %.
     const bool many_lamps = faces.lamps > most_single_lamps;
     if (faces.all < rays_from) {
       return {false, "they pay from some " + std::to_string(rays_from) + " input faces on, there are " + std::to_string(faces.all),
