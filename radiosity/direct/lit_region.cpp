@@ -25,8 +25,8 @@
 
 namespace radiosity {
 
-HALFLIGHT_INLINE LitRegion::LitRegion(const DirectLight& light, const raycast::PatchShape& shape, const glm::dvec3& normal)
-    : light_{&light}, owner_{shape.owner} {
+HALFLIGHT_INLINE LitRegion::LitRegion(const DirectLight& light, const raycast::PatchShape& shape, const glm::dvec3& normal, Shadows shadows)
+    : light_{&light}, owner_{shape.owner}, shadows_{shadows} {
   region_.normal = normal;
   raycast::Box box;
   for (const glm::dvec3& p : shape.contour) { box.extend(p); }

@@ -9,7 +9,9 @@
 //   nothing             proven by the occluder lists of the scene (raycast/shaft.hpp) or by the shaft of both (polygon_shaft.hpp)
 //   faces, convex bodies  their shadow is cut out of the lamp (shadow.hpp): exact for flat faces, without noise, smooth in the point
 //                       (closed meshes that are convex within 0.04 % of their diameter count as convex bodies, because corners in files
-//                       are rounded). If they are many, those hidden by others from the whole region are left out first.
+//                       are rounded). If they are many, those hidden by others from the whole region are left out first. For a picture
+//                       the share that is left of a lamp is measured along lines where the shadows divide it into many parts
+//                       (target_lines.hpp).
 //   anything else       segments to 256 points of the lamp, the same from each point, so that neighbours agree; they are weighted so
 //                       that only the hidden share is estimated, and stop after a quarter if these agree. Fewer are cast to a lamp that
 //                       can add little to the light of the others. Special cases:
@@ -38,6 +40,7 @@
 #include <radiosity/direct/light_vector.hpp>
 #include <radiosity/scene/material.hpp>
 #include <radiosity/visibility/shadow.hpp>
+#include <radiosity/visibility/target_lines.hpp>
 
 namespace radiosity {
 
@@ -56,11 +59,15 @@ struct Umbra;
 
 }  // namespace detail
 
+// How the visible share of a flat lamp is found behind faces and convex bodies: up to rounding, or, where they are many, to about a
+// thousandth of the lamp.
+enum class Shadows : unsigned char { exact, for_pictures };
+
 class LitRegion {
  public:
   // A region of points within `shape`, on the object `shape.owner`; shape.bulge is their largest distance from the plane of the contour.
   // `normal`: the common normal of all points, or 0 if they differ. `light` must outlive this. Not thread-safe, not even the queries.
-  LitRegion(const DirectLight& light, const raycast::PatchShape& shape, const glm::dvec3& normal);
+  LitRegion(const DirectLight& light, const raycast::PatchShape& shape, const glm::dvec3& normal, Shadows shadows = Shadows::exact);
 
   // Number of lamps that some point may see. They are sorted by the light that they may give, largest first.
   [[nodiscard]] std::size_t size() const { return reaches_.size(); }
@@ -130,6 +137,9 @@ class LitRegion {
   [[nodiscard]] detail::Umbra umbra_of(const Blocker& face, std::span<const glm::dvec3> region) const;
   // Makes the cone from x over a convex body; empty if x lies on the body's surface.
   void make_cone(const Reach::Outline& outline, const glm::dvec3& x);
+  // Calls hide(cone) with the shadow of each face and outline on the target, until it returns false.
+  template <class Hide>
+  void each_shadow(const Reach& reach, ShadowedTarget& target, const glm::dvec3& x, const Hide& hide);
   // The form factor of the part of the lamp that faces and outlines leave visible; `left`, if given, receives its convex parts.
   [[nodiscard]] double cut(const Reach& reach, const glm::dvec3& x, const glm::dvec3& n, std::vector<detail::LampPart>* left);
   // Result of segments from x to up to sixteen samples of a lamp: the light that each carries if it is not blocked, and which
@@ -164,12 +174,15 @@ class LitRegion {
 
   const DirectLight* light_;
   std::uint32_t owner_;
+  Shadows shadows_;
   PointRegion region_;  // normal: 0 if the points differ in it
   double lift_ = 0.0;
   glm::dvec3 last_{0.0}, last_normal_{0.0}, last_lifted_{0.0};  // arguments and result of the last call of lifted()
   std::vector<Reach> reaches_;
   std::vector<char> facing_;
   std::vector<HalfSpace> cone_;
+  const Facets::Facet* facet_of_lines_ = nullptr;
+  std::optional<TargetLines> lines_;  // across that facet
   struct Projected {
     double s = 0.0, t = 0.0;
     const glm::dvec3* corner = nullptr;

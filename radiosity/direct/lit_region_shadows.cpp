@@ -5,6 +5,7 @@
 #include <radiosity/direct/lit_region.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -24,6 +25,7 @@
 #include <radiosity/support/random.hpp>
 #include <radiosity/visibility/polygon_shaft.hpp>
 #include <radiosity/visibility/shadow.hpp>
+#include <radiosity/visibility/target_lines.hpp>
 
 // LitRegion: blockers between a region and a flat lamp whose shadows are cut out of the lamp.
 
@@ -263,30 +265,56 @@ HALFLIGHT_INLINE void LitRegion::make_cone(const Reach::Outline& outline, const 
   }
 }
 
+template <class Hide>
+void LitRegion::each_shadow(const Reach& reach, ShadowedTarget& target, const glm::dvec3& x, const Hide& hide) {
+  for (const Blocker& face : reach.faces) {
+    if (!hide(target.shadow_of(face))) { return; }
+  }
+  for (const Reach::Outline& outline : reach.outlines) {
+    if (target.misses(outline.centre, outline.radius)) { continue; }
+    make_cone(outline, x);
+    if (!hide(std::span<const HalfSpace>{cone_})) { return; }
+  }
+}
+
 HALFLIGHT_INLINE double LitRegion::cut(const Reach& reach, const glm::dvec3& x, const glm::dvec3& n, std::vector<detail::LampPart>* left) {
   const DirectLight::Lamp& lamp = light_->lamps_[reach.lamp];
+  const bool lines = shadows_ == Shadows::for_pictures;
+  const auto add_part = [&](std::uint32_t facet, std::span<const glm::dvec3> contour) {
+    detail::LampPart& part = left->emplace_back(detail::LampPart{{}, facet, point_to_polygon(x, n, contour)});
+    for (const glm::dvec3& p : contour) { part.contour.push_back(p); }
+  };
+  constexpr std::size_t many_pieces = 16;  // to cut the next shadow out of more takes longer than to cut it out of lines
   double sum = 0.0;
   for (std::uint32_t f = 0; f < lamp.facets.facets.size(); ++f) {
     const Facets::Facet& facet = lamp.facets.facets[f];
     if (!(facet.height(x) > light_->slack_)) { continue; }
     ShadowedTarget target{facet.contour, facet.normal, {}, light_->slack_};
     target.look(x, n);
-    for (const Blocker& face : reach.faces) {
-      if (target.hidden()) { break; }
-      target.hide(face);
-    }
-    for (const Reach::Outline& outline : reach.outlines) {
-      if (target.hidden()) { break; }
-      if (target.misses(outline.centre, outline.radius)) { continue; }
-      make_cone(outline, x);
-      if (!cone_.empty()) { target.hide(cone_); }
+    bool divided = false;
+    each_shadow(reach, target, x, [&](std::span<const HalfSpace> cone) {
+      target.hide(cone);
+      divided = lines && target.pieces().size() > many_pieces;
+      return !divided && !target.hidden();
+    });
+    if (divided) {
+      if (facet_of_lines_ != &facet) { lines_.emplace(facet.contour, facet.normal); }
+      facet_of_lines_ = &facet;
+      lines_->look(x, n);
+      each_shadow(reach, target, x, [&](std::span<const HalfSpace> cone) {
+        if (!cone.empty()) { lines_->hide(cone); }
+        return !lines_->hidden();
+      });
+      target.look(x, n);  // without the shadows
+      sum += lines_->visible_share() * target.form_factor();
+      if (left != nullptr) {
+        lines_->each_strip([&](const std::array<glm::dvec3, 4>& strip) { add_part(f, strip); });
+      }
+      continue;
     }
     sum += target.form_factor();
     if (left == nullptr) { continue; }
-    for (const Piece& piece : target.pieces()) {
-      detail::LampPart& part = left->emplace_back(detail::LampPart{{}, f, point_to_polygon(x, n, piece)});
-      for (const glm::dvec3& p : piece) { part.contour.push_back(p); }
-    }
+    for (const Piece& piece : target.pieces()) { add_part(f, piece); }
   }
   return sum;
 }

@@ -155,7 +155,7 @@ HALFLIGHT_INLINE LitRegion FinalGather::lit_region(std::span<const Place> places
   const auto corner = [&, s = s, t = t](double u, double v) { return first.point.position + u * s + v * t; };
   const std::array<glm::dvec3, 4> contour{corner(lo.x, lo.y), corner(hi.x, lo.y), corner(hi.x, hi.y), corner(lo.x, hi.y)};
   const double bulge = flat ? 0.0 : std::max(hi.z, -lo.z);
-  return {direct_, {contour, first.object, bulge}, flat ? n : glm::dvec3{0.0}};
+  return {direct_, {contour, first.object, bulge}, flat ? n : glm::dvec3{0.0}, Shadows::for_pictures};
 }
 
 namespace detail {

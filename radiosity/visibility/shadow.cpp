@@ -128,21 +128,21 @@ HALFLIGHT_INLINE void ShadowedTarget::look(const glm::dvec3& x, const glm::dvec3
   detail::planes_through(x, first_, within, sides_);
 }
 
-HALFLIGHT_INLINE void ShadowedTarget::hide(const Blocker& blocker) {
+HALFLIGHT_INLINE std::span<const HalfSpace> ShadowedTarget::shadow_of(const Blocker& blocker) {
   const glm::dvec3& x = horizon_.point;
   const HalfSpace before{target_[0], m_};
   const double height = glm::dot(blocker.normal, x - blocker.contour[0]);
-  if (std::abs(height) <= slack_) { return; }  // seen edge-on
+  if (std::abs(height) <= slack_) { return {}; }  // seen edge-on
   const auto beside = [&](const HalfSpace& side) { return detail::all_outside(blocker.contour, side); };
-  if (std::any_of(sides_.begin(), sides_.end(), beside)) { return; }
+  if (std::any_of(sides_.begin(), sides_.end(), beside)) { return {}; }
   detail::part(blocker.contour, horizon_, first_, second_);
   shade_ = first_;
   detail::part(shade_, before, first_, second_);
-  if (first_.empty() || flat(first_, horizon_) || flat(first_, before)) { return; }
+  if (first_.empty() || flat(first_, horizon_) || flat(first_, before)) { return {}; }
   planes_.clear();
   const auto within = [&](const glm::dvec3&) { return height <= 0.0; };
   detail::planes_through(x, first_, within, planes_);
-  hide(planes_);
+  return planes_;
 }
 
 HALFLIGHT_INLINE bool ShadowedTarget::misses(const glm::dvec3& centre, double radius) const {

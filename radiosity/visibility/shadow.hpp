@@ -90,8 +90,12 @@ class ShadowedTarget {
   // The same in three steps, for other kinds of blockers. First: sets the view from x, with all of the target above the horizon.
   void look(const glm::dvec3& x, const glm::dvec3& n);
   // Second, for each blocker: removes what a polygon hides, or what lies within all of these planes through x.
-  void hide(const Blocker& blocker);
-  void hide(std::span<const HalfSpace> cone) { detail::cut_away(pieces_, cone); }
+  void hide(const Blocker& blocker) { hide(shadow_of(blocker)); }
+  void hide(std::span<const HalfSpace> cone) {
+    if (!cone.empty()) { detail::cut_away(pieces_, cone); }
+  }
+  // The planes through x between which the blocker hides the target; none if it hides nothing of it. Valid until the next call.
+  [[nodiscard]] std::span<const HalfSpace> shadow_of(const Blocker& blocker);
   // Is it certain that nothing within this sphere hides a part of the target?
   [[nodiscard]] bool misses(const glm::dvec3& centre, double radius) const;
   [[nodiscard]] bool hidden() const { return pieces_.empty(); }

@@ -31,10 +31,10 @@ struct World {
   }
   [[nodiscard]] glm::dvec3 in_frame(const glm::dvec3& x) const { return (x - prepared->frame.centre) * prepared->frame.scale; }
   // A region of object 0, which lies in the plane z = 0: a square of half the side r about x.
-  [[nodiscard]] radiosity::LitRegion region(const glm::dvec3& x, double r) const {
+  [[nodiscard]] radiosity::LitRegion region(const glm::dvec3& x, double r, radiosity::Shadows shadows = radiosity::Shadows::exact) const {
     const std::array<glm::dvec3, 4> contour{in_frame(x + glm::dvec3{-r, -r, 0}), in_frame(x + glm::dvec3{r, -r, 0}),
                                             in_frame(x + glm::dvec3{r, r, 0}), in_frame(x + glm::dvec3{-r, r, 0})};
-    return {light, {contour, 0, 0.0}, {0, 0, 1}};
+    return {light, {contour, 0, 0.0}, {0, 0, 1}, shadows};
   }
 
   radiosity::Scene scene;
