@@ -64,8 +64,8 @@ class TargetLines {
   std::vector<glm::dvec3> target_;
   glm::dvec3 along_{0.0}, across_{0.0}, origin_;  // line k consists of the points origin_ + s * along_ + at_[k] * across_
   std::array<double, count> at_{};
-  double distance_ = 0.0;  // of the lines
-  double least_ = 0.0;     // an interval that is not longer is left out
+  double distance_ = 0.0;         // of the lines
+  double least_ = 0.0;            // an interval that is not longer is left out
   std::vector<HalfSpace> sides_;  // of the target, then the horizon
   Piece above_, below_;           // the horizon
   glm::dvec3 x_{0.0}, n_{0.0};

@@ -23,9 +23,7 @@ namespace {
 
 using Contour = std::vector<glm::dvec3>;
 
-glm::dvec3 vector(radiosity::Random& random) {
-  return 2.0 * glm::dvec3{random.uniform(), random.uniform(), random.uniform()} - 1.0;
-}
+glm::dvec3 vector(radiosity::Random& random) { return 2.0 * glm::dvec3{random.uniform(), random.uniform(), random.uniform()} - 1.0; }
 
 // A convex polygon of three to six corners about the origin of the plane z = 0, seen from below.
 Contour target_of(radiosity::Random& random) {
@@ -52,7 +50,8 @@ glm::dvec3 normal_of(const Contour& face) { return glm::normalize(glm::cross(fac
 // takes other points on a shorter part of a line.
 constexpr double of_quadrature = 1e-5;
 
-TEST_CASE("lines across a target: the visible share behind random triangles is the exact one to about a thousandth, and no blocker adds to it") {
+TEST_CASE(
+    "lines across a target: the visible share behind random triangles is the exact one to about a thousandth, and no blocker adds to it") {
   const auto seed = test::seed();
   INFO("seed " << seed);
   radiosity::Random random{seed, 0x74617267ull};
