@@ -112,11 +112,16 @@ void put_position(std::string& out, const glm::dvec3& p) { out += shortest(p.x) 
 
 std::string shown(std::string_view word) {
   constexpr std::size_t longest = 40;
-  std::string text(word.substr(0, longest));
-  for (char& c : text) {
-    if (c < 0x20 || c > 0x7e) { c = '?'; }
+  std::string text;
+  std::size_t at = 0;
+  for (std::size_t count = 0; at < word.size() && count < longest; ++count) {
+    const std::size_t length = utf8_length(word, at);
+    const std::string_view character = word.substr(at, std::max<std::size_t>(length, 1));
+    const bool control = length == 1 ? character[0] < 0x20 || character[0] == 0x7f : character >= "\xc2\x80" && character < "\xc2\xa0";
+    text += length == 0 || control ? "?" : character;
+    at += character.size();
   }
-  return "'" + text + (word.size() > longest ? "...'" : "'");
+  return "'" + text + (at < word.size() ? "...'" : "'");
 }
 
 std::optional<glm::dvec3> read_position(const Lines& lines, std::size_t first, Output& out) {

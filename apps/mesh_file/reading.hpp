@@ -75,7 +75,7 @@ class Lines {
 [[nodiscard]] std::optional<double> to_number(std::string_view word);
 [[nodiscard]] std::optional<std::int64_t> to_integer(std::string_view word);
 
-// The word in quotes for a message: at most 40 characters, unprintable ones as '?'.
+// The word in quotes for a message: at most 40 characters of UTF-8, each that controls a terminal or is none as '?'.
 [[nodiscard]] std::string shown(std::string_view word);
 
 // Missing texture coordinates and colours.

@@ -11,6 +11,7 @@ namespace apps::vrml {
 std::string name_beside(const std::shared_ptr<const std::string>& file, std::string_view url) {
   if (url.empty() || url.find("://") != url.npos || url.starts_with("urn:")) { return {}; }
   std::string name(url);
+  std::replace(name.begin(), name.end(), '\\', '/');  // some programs write paths as their system has them
   if (file != nullptr) { name.insert(0, *file, 0, file->rfind('/') + 1); }
   return std::filesystem::path(name).lexically_normal().generic_string();  // so that each file has only one name
 }

@@ -80,7 +80,7 @@ void Parser::body_of_prototype(Prototype& made, Place place) {
 }
 
 std::shared_ptr<Node> Parser::instance_of(const Prototype& prototype, const Node& call) {
-  any_instance_ = true;
+  any_instance_ = any_instance_ || fields_of_prototype_ == nullptr;  // those within other prototypes are none of the file
   const auto made = instance(prototype, call.fields, copies_left_);
   if (made == nullptr || made->children.size() >= copies_left_) {
     fail(call.place, "instances of prototypes make more than " + std::to_string(graph_limits.most_visits) + " nodes");

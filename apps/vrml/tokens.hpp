@@ -84,14 +84,15 @@ inline std::optional<double> number_of(std::string_view word) {
   return mesh_file::to_number(word);
 }
 
-// The content of a string token, or a word unchanged.
+// The content of a string token, or a word unchanged. A backslash stands for itself but before a quote or another one: in "..\rooms" it
+// divides a path.
 inline std::string unquoted(std::string_view token) {
   if (token.empty() || token[0] != '"') { return std::string(token); }
   token.remove_prefix(1);
   if (!token.empty() && token.back() == '"') { token.remove_suffix(1); }
   std::string text;
   for (std::size_t i = 0; i < token.size(); ++i) {
-    if (token[i] == '\\' && i + 1 < token.size()) { ++i; }
+    if (token[i] == '\\' && i + 1 < token.size() && (token[i + 1] == '"' || token[i + 1] == '\\')) { ++i; }
     text += token[i];
   }
   return text;

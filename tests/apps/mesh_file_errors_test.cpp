@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "apps/mesh_file/reading.hpp"
 #include "mesh_files.hpp"
 
 using namespace mesh_files;
@@ -167,4 +168,23 @@ TEST_CASE("damaged files of every format never bring the readers down, and give 
     check_same(std::move(apps::read_mesh(apps::write_mesh(mesh.builder, format), format).mesh->builder), mesh.builder);
   }
   CHECK((read > 1000 && refused > 1000));
+}
+
+TEST_CASE("a word in a message keeps its characters of any language; what controls a terminal or is no character is a question mark") {
+  using apps::mesh_file::shown;
+  CHECK(shown("") == "''");
+  CHECK(shown("Stra\xc3\x9f"
+              "e") ==
+        "'Stra\xc3\x9f"
+        "e'");
+  CHECK(shown("\xed\x83\x81\xec\x9e\x90.142") == "'\xed\x83\x81\xec\x9e\x90.142'");
+  CHECK(shown("a\x1b[2Jb\x7f") == "'a?[2Jb?'");
+  CHECK(shown("\xc2\x9b"
+              "2J\xc2\xa0") == "'?2J\xc2\xa0'");  // U+009B begins a command of terminals
+  CHECK(shown("\xff.\xc3") == "'?.?'");
+  std::string umlauts, forty;
+  for (int i = 0; i < 41; ++i) { umlauts += "\xc3\xa4"; }
+  for (int i = 0; i < 40; ++i) { forty += "\xc3\xa4"; }
+  CHECK(shown(umlauts) == "'" + forty + "...'");
+  CHECK(shown(forty) == "'" + forty + "'");
 }

@@ -52,7 +52,9 @@ TEST_CASE("VRML 97: groups, levels, files, colours of pictures, and what has no 
                             {"in/c.wrl", "#VRML V1.0 ascii\nCube { }"}};
   CHECK(objects("Inline { url \"in/b.wrl\" }", files) == 2);
   CHECK(objects("Inline { url \"./in/../in//b.wrl\" }", files) ==
-        2);  // one file has one name, or one that names itself has new ones for ever
+        2);                                                    // one file has one name, or one that names itself has new ones for ever
+  CHECK(objects("Inline { url \"in\\b.wrl\" }", files) == 2);  // as some systems write paths
+  CHECK(objects("Inline { url \".\\in\\..\\in\\\\b.wrl\" }", files) == 2);
   CHECK(noted(vrml97::read(box + "Shape { geometry Text { string \"x\" } }").notes, "lines, points and texts have no surface"));
   CHECK(objects("ROUTE a.b TO c.d Script { url \"javascript: }\" field SFNode s NULL } DEF t TouchSensor { enabled FALSE }" + box) == 1);
 
@@ -87,6 +89,9 @@ TEST_CASE("VRML 97: what is wrong is told with its place, what is not known is p
     CAPTURE(found, sentence);
     CHECK(found.find(sentence) != std::string::npos);
   }
+  const std::string prototypes = "PROTO A [ ] { Shape { geometry Box { } } } PROTO B [ ] { A { } } Group { } ";
+  CHECK(noted(vrml97::read(prototypes).notes, "the prototypes of this file have no instances in it"));
+  CHECK_FALSE(noted(vrml97::read(prototypes + "B { }").notes, "no instances"));
   const apps::Model model = vrml97::read(
       "Odd { a [ DEF x Group { } ] b { } } Group { children USE x mine [ 1 2 [ 3 ] ] other Sphere { radius 3 } set_it TRUE siez 1 2 }\n"
       "Shape { geometry Box { solid TRUE size 2 2 2 } }");
