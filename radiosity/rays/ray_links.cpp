@@ -162,7 +162,11 @@ HALFLIGHT_INLINE std::vector<std::uint32_t> ray_counts(const DiscreteScene& scen
     all += area[caster.node];
     weighted += caster.weight * std::sqrt(area[caster.node]);
   }
-  constexpr double least = 32.0;  // fewer say too little about what is near a node
+  // Fewer say too little about what is near a node. A picture gathers its light anew, so for that a quarter suffices where nodes are so
+  // many that this least number, not the light, would decide about the time.
+  constexpr double least_each = 32.0, most_by_least = 0x1p20;
+  const double of_many = std::clamp(most_by_least / static_cast<double>(casters.size()), 0.25 * least_each, least_each);
+  const double least = scene.control.viewpoint ? of_many : least_each;
   // With a camera, slivers in view may have hundreds of times the weight of others. The total is limited to the number that equal weights
   // would give.
   constexpr double few = 0x1p22;

@@ -2,6 +2,7 @@
 
 // Laws of stored rays: links of rays are the form factors within their noise, reciprocal and closed, and the noise is what they say.
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <memory>
@@ -169,6 +170,33 @@ TEST_CASE("what one camera makes important shares some millions of rays, however
   for (radiosity::Caster& caster : casters) { caster.weight = 1e4; }
   const std::vector<std::uint32_t> counts = radiosity::ray_counts(*discrete, casters, 64.0);
   CHECK(std::accumulate(counts.begin(), counts.end(), 0.0) == test::Approx(1u << 22).epsilon(1e-5));  // rounded
+}
+
+TEST_CASE("nodes that matter little cast 32 rays each; for a picture no more than a million in all, if there are very many, but 8 each") {
+  const auto discrete = roots_of(closed_room({}), 1, 1);
+  const auto least_of = [&](std::size_t nodes, bool picture) {
+    for (std::uint32_t i = 0; i < discrete->hierarchy.size() && discrete->hierarchy.size() < nodes; ++i) {
+      if (discrete->hierarchy[i].leaf()) { REQUIRE(radiosity::subdivide(discrete->surfaces, discrete->hierarchy, i, discrete->meshing)); }
+    }
+    discrete->expose();
+    discrete->control.viewpoint.reset();
+    if (picture) { discrete->control.viewpoint = radiosity::Viewpoint{}; }
+    std::vector<radiosity::Caster> casters = casters_of(*discrete);
+    for (radiosity::Caster& caster : casters) { caster.weight = 1e-9; }
+    const std::vector<std::uint32_t> counts = radiosity::ray_counts(*discrete, casters, 64.0);
+    std::uint32_t least = 1000;
+    for (const radiosity::Caster& caster : casters) {
+      if (!(discrete->exposure.area[caster.node] > 0.0)) { continue; }  // behind the lamp
+      least = std::min(least, counts[caster.node]);
+    }
+    CHECK((!picture || least == 8 || least * casters.size() <= (1u << 20) + casters.size() / 2));  // rounded
+    return least;
+  };
+  CHECK(least_of(1000, true) == 32);
+  CHECK(least_of(70'000, false) == 32);
+  const std::uint32_t many = least_of(70'000, true);
+  CHECK((many > 8 && many < 32));
+  CHECK(least_of(220'000, true) == 8);
 }
 
 TEST_CASE("the noise of rays is what they tell: solutions by other rays differ by it") {
