@@ -170,7 +170,7 @@ TEST_CASE("damaged files of every format never bring the readers down, and give 
   CHECK((read > 1000 && refused > 1000));
 }
 
-TEST_CASE("a word in a message keeps its characters of any language; what controls a terminal or is no character is a question mark") {
+TEST_CASE("a word in a message keeps its characters of any language, and what controls a terminal or is no character is a question mark") {
   using apps::mesh_file::shown;
   CHECK(shown("") == "''");
   CHECK(shown("Stra\xc3\x9f"
