@@ -172,7 +172,7 @@ TEST_CASE("what one camera makes important shares some millions of rays, however
   CHECK(std::accumulate(counts.begin(), counts.end(), 0.0) == test::Approx(1u << 22).epsilon(1e-5));  // rounded
 }
 
-TEST_CASE("nodes that matter little cast 32 rays each, and for a picture no more than a million in all, if there are very many, but 8 each") {
+TEST_CASE("nodes that matter little cast 32 rays each, very many of them for a picture a million in all, but 8 each") {
   const auto discrete = roots_of(closed_room({}), 1, 1);
   const auto least_of = [&](std::size_t nodes, bool picture) {
     for (std::uint32_t i = 0; i < discrete->hierarchy.size() && discrete->hierarchy.size() < nodes; ++i) {
