@@ -17,12 +17,13 @@
 
 namespace radiosity {
 
-// The lines run at 0.55 radians to the first edge, so that they are not parallel to the edges of a rectangle or of a regular polygon, nor
-// to the edges of what hangs or stands parallel to it.
+// The lines run at 0.55 radians to the first edge that has a length, so that they are not parallel to the edges of a rectangle or of a
+// regular polygon, nor to the edges of what hangs or stands parallel to it.
 HALFLIGHT_INLINE TargetLines::TargetLines(std::span<const glm::dvec3> target, const glm::dvec3& m)
     : target_{target.begin(), target.end()}, origin_{target[0]} {
   constexpr double angle = 0.55;
-  const glm::dvec3 edge = glm::normalize(target[1] - target[0]), inwards = glm::cross(m, edge);
+  const auto apart = [&](const glm::dvec3& p) { return glm::length(p - target[0]) > 0.0; };
+  const glm::dvec3 edge = glm::normalize(*std::find_if(target.begin(), target.end(), apart) - target[0]), inwards = glm::cross(m, edge);
   along_ = std::cos(angle) * edge + std::sin(angle) * inwards;
   across_ = glm::cross(m, along_);
   for (std::size_t i = 0; i < target.size(); ++i) {

