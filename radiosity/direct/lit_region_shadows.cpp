@@ -284,7 +284,7 @@ HALFLIGHT_INLINE double LitRegion::cut(const Reach& reach, const glm::dvec3& x, 
     detail::LampPart& part = left->emplace_back(detail::LampPart{{}, facet, point_to_polygon(x, n, contour)});
     for (const glm::dvec3& p : contour) { part.contour.push_back(p); }
   };
-  constexpr std::size_t many_pieces = 16;  // to cut the next shadow out of more takes longer than to cut it out of lines
+  constexpr std::size_t many_pieces = 16;  // lines are about as fast from 8 to 32 pieces on, within a tenth of the time of a picture
   double sum = 0.0;
   for (std::uint32_t f = 0; f < lamp.facets.facets.size(); ++f) {
     const Facets::Facet& facet = lamp.facets.facets[f];
