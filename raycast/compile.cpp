@@ -130,7 +130,7 @@ HALFLIGHT_INLINE void Compiler::add(std::uint32_t index, const PlacedObject& obj
   out_.bounds.push_back(rounded(scaled(object.bounds())));
   out_.roles.push_back(!outline.empty() ? Role::polygon : object.solid() ? Role::solid : Role::surface);
   out_.first_sheet.push_back(no_shape);
-  if (object.flat() && object.solid()) {
+  if (object.flat() && object.solid() && rays == Rays::meet) {
     out_.first_sheet.back() = static_cast<std::uint32_t>(out_.sheets.size());
     for (std::uint32_t sheet = 0; sheet < object.sheet_count(); ++sheet) {
       const SurfacePoint at = object.project(sheet, out_.centre);

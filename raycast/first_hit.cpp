@@ -128,7 +128,7 @@ HALFLIGHT_INLINE void Scene::decide(Search& search, const Entries& entries, floa
   const Line line(ray);
   for (std::uint32_t i = 0; i < objects_.size(); ++i) {
     const bool room = objects_[i].inside() && !compiled_.is_face_room(i);  // rooms are processed last
-    if (compiled_.roles[i] != Role::polygon && !room && !left_out_[i]) { approach(line, search.source, i, nearest); }
+    if (compiled_.roles[i] != Role::polygon && !room && !left_out_[i] && !is_far(i)) { approach(line, search.source, i, nearest); }
   }
 }
 
@@ -154,6 +154,14 @@ HALFLIGHT_INLINE void Scene::approach_bounded(Search& search) const {
   float limit = 1.0f;
   HALFLIGHT_DISPATCH(isa_, first(compiled_, rays, 0, 0, limit, entries, asker));
   decide(search, entries, limit);
+}
+
+HALFLIGHT_INLINE void Scene::approach_far(Search& search) const {
+  if (far_.empty() || !has_line(search.ray)) { return; }
+  const glm::dvec3 o = compiled_.local(search.ray.origin);
+  if (search.nearest.hit.object != no_object && Box{o, o}.magnitude() < lane_reach) { return; }
+  const Line line(search.ray);
+  for (const std::uint32_t i : far_) { approach(line, search.source, i, search.nearest); }
 }
 
 HALFLIGHT_INLINE void Scene::approach_rooms(Search& search) const {
@@ -221,6 +229,7 @@ HALFLIGHT_INLINE Hits16 Scene::closest16(const Segments16& rays) const {
   }
   for (std::uint32_t rest = lanes; rest; rest &= rest - 1) {
     const auto i = static_cast<unsigned>(std::countr_zero(rest));
+    approach_far(searches[i]);
     approach_rooms(searches[i]);
     result.hit[i] = searches[i].nearest.hit;
     result.met |= static_cast<std::uint32_t>(result.hit[i].object != no_object) << i;

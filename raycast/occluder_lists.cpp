@@ -44,25 +44,51 @@ HALFLIGHT_INLINE std::array<glm::dvec3, 4> four_corners(std::span<const glm::dve
   return {at(u0, v0), at(u1, v0), at(u1, v1), at(u0, v1)};
 }
 
-// The corners of two patches in the form of the kernels; nothing if they extend beyond the compiled scene.
+// Cuts the 16 segments of `c`, from the corners `near` to the corners `far`, at a plane before the latter that has the cube
+// [-half, half]^3 on its near side: within the cube, their convex hull stays the same. Returns false if one does not cross the plane, or
+// reaches beyond `most` even then. `swapped`: `far` is the first patch.
+HALFLIGHT_INLINE bool cut_far_ends(const std::array<glm::dvec3, 4>& near, const std::array<glm::dvec3, 4>& far, bool swapped, double half,
+                                   double most, Corners16& c) {
+  glm::dvec3 way{0.0};
+  for (std::size_t i = 0; i < 4; ++i) { way += far[i] - near[i]; }
+  const glm::dvec3 n = glm::normalize(way);
+  const double plane = half * (std::abs(n.x) + std::abs(n.y) + std::abs(n.z));
+  float* const ends[3] = {swapped ? c.rays.ox : c.rays.tx, swapped ? c.rays.oy : c.rays.ty, swapped ? c.rays.oz : c.rays.tz};
+  for (std::size_t lane = 0; lane < 16; ++lane) {
+    const glm::dvec3 &from = near[swapped ? lane % 4 : lane / 4], &to = far[swapped ? lane / 4 : lane % 4];
+    const double a = glm::dot(n, from), b = glm::dot(n, to);
+    const glm::dvec3 cut = from + (plane - a) / (b - a) * (to - from);
+    if (!(a <= plane && plane < b && Box{cut, cut}.magnitude() < most)) { return false; }
+    for (int k = 0; k < 3; ++k) { ends[k][lane] = static_cast<float>(cut[k]); }
+  }
+  return true;
+}
+
+// The corners of two patches in the form of the kernels. If one patch is far away, and all else within [-half, half]^3, the segments to
+// it are cut. Nothing if they extend beyond the compiled scene even so.
 HALFLIGHT_INLINE std::optional<Corners16> corners_for_kernels(const Compiled& compiled, Isa isa, const PatchShape& a, const PatchShape& b,
-                                                              const std::array<glm::dvec3, 4>& p, const std::array<glm::dvec3, 4>& q) {
+                                                              std::array<glm::dvec3, 4> p, std::array<glm::dvec3, 4> q, double half) {
   Corners16 c;
   float pf[3][4], qf[3][4];
-  double reach = 0.0;
+  double reach_p = 0.0, reach_q = 0.0;
   for (std::size_t i = 0; i < 4; ++i) {
-    const glm::dvec3 o = compiled.local(p[i]), t = compiled.local(q[i]);
+    p[i] = compiled.local(p[i]), q[i] = compiled.local(q[i]);
     for (int k = 0; k < 3; ++k) {
-      pf[k][i] = static_cast<float>(o[k]), qf[k][i] = static_cast<float>(t[k]);
-      reach = std::max({reach, std::abs(o[k]), std::abs(t[k])});
+      pf[k][i] = static_cast<float>(p[i][k]), qf[k][i] = static_cast<float>(q[i][k]);
+      reach_p = std::max(reach_p, std::abs(p[i][k])), reach_q = std::max(reach_q, std::abs(q[i][k]));
     }
   }
-  const double bulge = std::max(a.bulge, b.bulge);
-  if (!(reach + bulge * compiled.scale < lane_reach)) { return std::nullopt; }
+  const double bulge = std::max(a.bulge, b.bulge), most = lane_reach - bulge * compiled.scale;
   c.bulge = bulge > 0.0 ? static_cast<float>(bulge * compiled.scale) * length_up + unit_roundoff_single : 0.0f;
   c.source = a.owner, c.target = b.owner;
   c.source_sheet = a.sheet, c.target_sheet = b.sheet;
   HALFLIGHT_DISPATCH(isa, spread_corners(pf, qf, c));
+  if (reach_p < most && reach_q < most) { return c; }
+  const bool cut = reach_p < most   ? cut_far_ends(p, q, false, half, most, c)
+                   : reach_q < most ? cut_far_ends(q, p, true, half, most, c)
+                                    : false;
+  if (!cut) { return std::nullopt; }
+  HALFLIGHT_DISPATCH(isa, join_corners(c));
   return c;
 }
 
@@ -77,8 +103,8 @@ HALFLIGHT_INLINE OccluderList Scene::filter(const OccluderList& parent, const Pa
 HALFLIGHT_INLINE OccluderList Scene::list_of(const OccluderList* parent, const PatchShape& a, const PatchShape& b) const {
   OccluderList list;
   const std::array<glm::dvec3, 4> p = detail::four_corners(a.contour), q = detail::four_corners(b.contour);
-  std::optional<Corners16> corners = detail::corners_for_kernels(compiled_, isa_, a, b, p, q);
-  if (!corners) { return list; }
+  std::optional<Corners16> corners = detail::corners_for_kernels(compiled_, isa_, a, b, p, q, far_.empty() ? 1.0 : 0.5);
+  if (!corners || far_between(p, q, a, b)) { return list; }
   Corners16& c = *corners;
   const double bulge = std::max(a.bulge, b.bulge);
   const bool faces_alone =
@@ -121,6 +147,24 @@ HALFLIGHT_INLINE OccluderList Scene::list_of(const OccluderList* parent, const P
   }
   list.rooms_clear_ = (parent && parent->rooms_clear_) || rooms_clear(a, b, list, c);
   return list;
+}
+
+// May a far object, which no list contains, stand between the patches? All segments between them lie about the line between their middles.
+HALFLIGHT_INLINE bool Scene::far_between(const std::array<glm::dvec3, 4>& p, const std::array<glm::dvec3, 4>& q, const PatchShape& a,
+                                         const PatchShape& b) const {
+  if (far_.empty()) { return false; }
+  const auto middle = [](const std::array<glm::dvec3, 4>& x) { return 0.25 * (x[0] + x[1] + x[2] + x[3]); };
+  const Segment axis = between(middle(p), middle(q));
+  double about = 0.0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    about = std::max({about, glm::distance(p[i], axis.origin) + a.bulge, glm::distance(q[i], axis.at(1.0)) + b.bulge});
+  }
+  const SlabTest slabs(axis);
+  return std::any_of(far_.begin(), far_.end(), [&](std::uint32_t i) {
+    double entry = 0.0;
+    const bool own = (i == a.owner || i == b.owner) && (records_[i].corner_count || objects_[i].convex());
+    return !own && slabs(objects_[i].bounds().grown(about), 0.0, 1.0, entry);
+  });
 }
 
 // If a solid has no face in the list, no segment crosses its surface. So all segments are inside or all are outside, and one point in the

@@ -2,8 +2,8 @@
 
 // Occlusion of one segment and of sixteen: the fast searches of kernels.hpp, followed by the double-precision law of scene.hpp.
 //
-// Segments may lie anywhere: one that extends beyond the compiled scene is clipped to it. Rooms come last: if both ends lie in or on a
-// convex room, it does not block.
+// Segments may lie anywhere: one that extends beyond the compiled scene is clipped to it, and may meet far objects. Rooms come last: if
+// both ends lie in or on a convex room, it does not block.
 
 #include <algorithm>
 #include <bit>
@@ -175,6 +175,9 @@ HALFLIGHT_INLINE std::uint32_t Scene::occluded16(const Segments16& segments, con
     HALFLIGHT_DISPATCH(isa_, finish(rays));
   }
   if (bounded) { blocked |= HALFLIGHT_DISPATCH(isa_, blocked(compiled_, rays, bounded, list, count, hint, exact)); }
+  for (std::size_t i = 0; i < far_.size() && (lines & ~near & ~blocked) != 0; ++i) {
+    blocked |= exact(far_[i], Pending::whole, lines & ~near & ~blocked);
+  }
   if (!rooms_clear && (lines & ~blocked)) { blocked |= blocked_by_rooms(segments, rays, near, lines & ~blocked); }
   return blocked;
 }

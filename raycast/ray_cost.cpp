@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: MIT
 
-// The cost of searching the first hit of a ray (Scene::ray_work).
+// The cost of searching the first hit of a ray (Scene::ray_work, walk_work).
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <map>
+
+#include <glm/vec3.hpp>
 
 #include <brep/inline.hpp>
 
@@ -12,9 +17,41 @@
 #include <raycast/line_query.hpp>
 #include <raycast/ray.hpp>
 #include <raycast/scene.hpp>
+#include <raycast/transform.hpp>
 #include <raycast/walk.hpp>
 
 namespace raycast {
+
+HALFLIGHT_INLINE double Scene::ray_work() const {
+  const auto surface = [](const Box& box) {
+    const glm::dvec3 d = box.hi - box.lo;
+    return d.x * d.y + d.y * d.z + d.z * d.x;
+  };
+  const auto key = [](const PlacedObject& object) {
+    const Box box = object.bounds();
+    return std::array<double, 6>{box.lo.x, box.lo.y, box.lo.z, box.hi.x, box.hi.y, box.hi.z};
+  };
+  std::map<std::array<double, 6>, std::uint32_t> at_place;
+  for (std::uint32_t i = 0; i < size(); ++i) {
+    if (!left_out_[i]) { ++at_place[key(objects_[i])]; }
+  }
+  const double whole = surface(near_);
+  double work = 1.0;
+  for (std::uint32_t i = 0; i < size(); ++i) {
+    const PlacedObject& object = objects_[i];
+    if (left_out_[i]) { continue; }
+    // Faces that the fast search decides by itself cost next to nothing. Coincident faces, as of duplicates, need double precision.
+    if (object.flat() && (!object.inside() || compiled_.is_face_room(i)) && at_place[key(object)] == 1) { continue; }
+    work += object.object().work() * (whole > 0.0 && !object.inside() ? std::min(1.0, surface(object.bounds()) / whole) : 1.0);
+  }
+  return work;
+}
+
+HALFLIGHT_INLINE double Scene::walk_work() const {
+  // Measured on six scenes with 2 to 22 nodes per ray: a path's ray takes 0.3 to 1 us among few polygons, plus 0.13 us per node.
+  constexpr double few = 4.0, nodes_a_ray = 8.0;
+  return std::max(0.0, compiled_.walk_work() - few) / nodes_a_ray;
+}
 
 HALFLIGHT_INLINE double Scene::ray_work(const Segment& ray) const {
   // Microseconds, fitted to paths in fifteen scenes with 0.23 to 2.1 us per ray; accurate to a factor of 2. `law`: of one unit of

@@ -4,11 +4,9 @@
 #include <raycast/scene.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <map>
 #include <optional>
 #include <span>
 #include <utility>
@@ -24,6 +22,7 @@
 #include <raycast/bvh.hpp>
 #include <raycast/compile.hpp>
 #include <raycast/compiled.hpp>
+#include <raycast/far_objects.hpp>
 #include <raycast/isa.hpp>
 #include <raycast/object.hpp>
 #include <raycast/planar.hpp>
@@ -56,6 +55,10 @@ HALFLIGHT_INLINE Scene::Scene(std::vector<PlacedObject> objects, Isa isa)
     records_.push_back(record);
     bounds_.extend(object.bounds());
   }
+  far_ = far_objects(objects_);
+  for (std::uint32_t i = 0; i < objects_.size(); ++i) {
+    if (!is_far(i)) { near_.extend(objects_[i].bounds()); }
+  }
   rounding_ = eps_surface * bounds_.magnitude();
   compile();
 }
@@ -71,11 +74,13 @@ HALFLIGHT_INLINE void Scene::compile() {
   double touch = 0.0;
   for (const Record& record : records_) { touch = std::max(touch, record.touch); }
   compiled_ = {}, walls_.clear();
-  Compiler compiler(compiled_, bounds_, rounding_ + 2 * slack_ + touch);
+  // Half the scale leaves room around the scene, where segments to far objects are cut (occluder_lists.cpp).
+  const Box bounds = far_.empty() ? near_ : near_.grown(0.5 * std::max({near_.size().x, near_.size().y, near_.size().z}));
+  Compiler compiler(compiled_, bounds, rounding_ + 2 * slack_ + touch);
   for (std::uint32_t i = 0; i < objects_.size(); ++i) {
     const Record& r = records_[i];
     const auto outline = std::span<const glm::dvec3>(corners_).subspan(r.first_corner, r.corner_count);
-    compiler.add(i, objects_[i], outline, r.normal, left_out_[i] ? Compiler::Rays::pass : Compiler::Rays::meet);
+    compiler.add(i, objects_[i], outline, r.normal, left_out_[i] || is_far(i) ? Compiler::Rays::pass : Compiler::Rays::meet);
   }
   compiler.finish(loop_limit);
   placed_.clear();
@@ -101,37 +106,6 @@ HALFLIGHT_INLINE void Scene::compile() {
       walls.planes.push_back({wall.position, wall.normal});
     }
   }
-}
-
-HALFLIGHT_INLINE double Scene::ray_work() const {
-  const auto surface = [](const Box& box) {
-    const glm::dvec3 d = box.hi - box.lo;
-    return d.x * d.y + d.y * d.z + d.z * d.x;
-  };
-  const auto key = [](const PlacedObject& object) {
-    const Box box = object.bounds();
-    return std::array<double, 6>{box.lo.x, box.lo.y, box.lo.z, box.hi.x, box.hi.y, box.hi.z};
-  };
-  std::map<std::array<double, 6>, std::uint32_t> at_place;
-  for (std::uint32_t i = 0; i < size(); ++i) {
-    if (!left_out_[i]) { ++at_place[key(objects_[i])]; }
-  }
-  const double whole = surface(bounds_);
-  double work = 1.0;
-  for (std::uint32_t i = 0; i < size(); ++i) {
-    const PlacedObject& object = objects_[i];
-    if (left_out_[i]) { continue; }
-    // Faces that the fast search decides by itself cost next to nothing. Coincident faces, as of duplicates, need double precision.
-    if (object.flat() && (!object.inside() || compiled_.is_face_room(i)) && at_place[key(object)] == 1) { continue; }
-    work += object.object().work() * (whole > 0.0 && !object.inside() ? std::min(1.0, surface(object.bounds()) / whole) : 1.0);
-  }
-  return work;
-}
-
-HALFLIGHT_INLINE double Scene::walk_work() const {
-  // Measured on six scenes with 2 to 22 nodes per ray: a path's ray takes 0.3 to 1 us among few polygons, plus 0.13 us per node.
-  constexpr double few = 4.0, nodes_a_ray = 8.0;
-  return std::max(0.0, compiled_.walk_work() - few) / nodes_a_ray;
 }
 
 HALFLIGHT_INLINE bool Scene::blocks(const Line& line, const End& a, const End& b, std::uint32_t i) const {
@@ -234,6 +208,7 @@ HALFLIGHT_INLINE std::optional<Hit> Scene::closest(const Segment& ray, std::uint
   }
   Search search{ray, end_at(source_owner), source_sheet};
   approach_bounded(search);
+  approach_far(search);
   approach_rooms(search);
   if (search.nearest.hit.object == no_object) { return std::nullopt; }
   return search.nearest.hit;

@@ -20,7 +20,8 @@
 // on it. covered() uses the same skin, so both agree on what is coincident.
 //
 // This law, object by object, is blocks(). The fast searches answer in single precision where its error bound allows, and call blocks()
-// otherwise. Their answers are those of blocks() for every object, bit for bit, with any instruction set.
+// otherwise. Their answers are those of blocks() for every object, bit for bit, with any instruction set. Far objects (far_objects.hpp)
+// are not compiled: blocks() alone decides for them, and only if a segment leaves the surroundings of all others.
 //
 // All queries are const, thread-safe, and use no heap memory (except for a line that crosses a mesh more than eight times, and covered()
 // where surfaces coincide).
@@ -180,6 +181,7 @@ class Scene {
   };
 
   void compile();
+  [[nodiscard]] bool is_far(std::uint32_t object) const { return std::binary_search(far_.begin(), far_.end(), object); }
 
   struct Exact;
   struct ExactOne;
@@ -187,6 +189,8 @@ class Scene {
   [[nodiscard]] std::uint32_t occluded16(const Segments16& segments, const std::uint32_t* list, std::uint32_t count, bool rooms_clear,
                                          std::uint32_t& hint) const;
   [[nodiscard]] OccluderList list_of(const OccluderList* parent, const PatchShape& a, const PatchShape& b) const;
+  [[nodiscard]] bool far_between(const std::array<glm::dvec3, 4>& p, const std::array<glm::dvec3, 4>& q, const PatchShape& a,
+                                 const PatchShape& b) const;
   void drop_guards(OccluderList& list, const Corners16& corners) const;
   [[nodiscard]] bool within(std::uint32_t object, std::span<const glm::dvec3> points) const;
   [[nodiscard]] bool rooms_clear(const PatchShape& a, const PatchShape& b, const OccluderList& list, const Corners16& corners) const;
@@ -205,6 +209,8 @@ class Scene {
            (!walls.planes.empty() &&
             std::all_of(walls.planes.begin(), walls.planes.end(), [&](const Plane& wall) { return within(wall.point, wall.normal); }));
   }
+  // Adds hits with far objects, which only rays from elsewhere or without another hit can meet.
+  void approach_far(Search& search) const;
   // Adds hits with rooms, after all other objects: a point in a convex room, farther from its walls than ties extend, is hit before these.
   void approach_rooms(Search& search) const;
   [[nodiscard]] std::uint32_t may_be_around(const Guard& room, const Rays16& rays, std::uint32_t lanes) const;
@@ -248,7 +254,9 @@ class Scene {
   void offer(const Segment& ray, const Hit& hit, Nearest& nearest) const;
 
   std::vector<PlacedObject> objects_;
-  std::vector<bool> left_out_;  // by object
+  std::vector<bool> left_out_;      // by object
+  std::vector<std::uint32_t> far_;  // objects that are not compiled (far_objects.hpp)
+  Box near_;                        // the bounds of all others
   std::vector<Record> records_;
   std::vector<glm::dvec3> corners_;
   // How a convex room decides whether a point is inside: a polyhedral one by its planes (normals inwards), a curved one by the nearest

@@ -11,7 +11,7 @@
 // and the sagitta where refined vertices move out to a curved surface. A parent's list is valid for children whose hulls, widened by
 // their bulges, lie within those of the parent. Lists with more than 64 entries are not kept and count as unknown, for descendants too
 // (their segments search the whole scene, which is correct and usually faster than gathering again). Once descendants have become much
-// smaller, occluders() makes a new list.
+// smaller, occluders() makes a new list. Far objects (far_objects.hpp) are in no list; if one may stand between, the list is unknown.
 //
 // Convex owners: a segment whose end lies on or in a convex object that owns it is never blocked by that object. This is proven for the
 // contour, and holds for descendants because their vertices lie on the surface, too, and their points in the hull of these.
