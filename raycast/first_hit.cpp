@@ -64,8 +64,15 @@ struct Scene::Asker {
     const Search& s = searches[lane];
     return object == s.source.owner || scene.objects_[object].bounds().contains(s.ray.origin, 2 * scene.skin(s.source, object));
   }
-  [[nodiscard]] bool crosses(unsigned lane, std::uint32_t object, std::uint32_t face) const {
-    return scene.objects_[object].winding(searches[lane].ray, face) != 0;
+  // Does a face of such a solid, not certainly crossed, matter? On the solid from which the ray comes, not if it is crossed behind the
+  // origin or within the skin, as faces beside the one at the origin are.
+  [[nodiscard]] bool matters(unsigned lane, std::uint32_t object, std::uint32_t face) const {
+    const Search& s = searches[lane];
+    if (scene.objects_[object].winding(s.ray, face) == 0) { return false; }
+    const double skin = scene.skin(s.source, object);
+    if (object != s.source.owner || !scene.objects_[object].bounds().contains(s.ray.origin, skin)) { return true; }
+    const Crossing at = scene.objects_[object].crossing(s.ray, face);
+    return at.t > 0.0 && scene.depth(object, s.ray, at, at.t) > skin;
   }
 };
 

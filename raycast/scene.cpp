@@ -83,6 +83,8 @@ HALFLIGHT_INLINE void Scene::compile() {
     compiler.add(i, objects_[i], outline, r.normal, left_out_[i] || is_far(i) ? Compiler::Rays::pass : Compiler::Rays::meet);
   }
   compiler.finish(loop_limit);
+  guard_of_.assign(objects_.size(), no_shape);
+  for (std::uint32_t g = 0; g < compiled_.guards.size(); ++g) { guard_of_[compiled_.guards[g].object] = g; }
   placed_.clear();
   std::vector<Box> boxes;
   for (std::uint32_t i = 0; i < objects_.size(); ++i) {
@@ -286,12 +288,15 @@ HALFLIGHT_INLINE bool Scene::covered(const glm::dvec3& p, const glm::dvec3& n, s
     glm::dvec3 point, normal;
   };
   std::vector<Coincident> later;  // usually empty
+  const glm::vec3 local{compiled_.local(p)};
+  const auto in_air = [&](const Guard& solid) { return solid.air.contains(local.x, local.y, local.z); };
   const auto covers = [&](std::uint32_t i) {
     if (i == owner) { return false; }
     const PlacedObject& object = objects_[i];
     const Record& r = records_[i];
     const double near = skin(end, i);
     if (!object.inside() && !object.bounds().contains(p, near)) { return false; }
+    if (guard_of_[i] != no_shape && in_air(compiled_.guards[guard_of_[i]])) { return false; }
     const bool may_cover = i > owner && !left_out_[i];
     if (r.corner_count) {
       const double off = glm::dot(r.normal, p - r.point);
@@ -312,7 +317,7 @@ HALFLIGHT_INLINE bool Scene::covered(const glm::dvec3& p, const glm::dvec3& n, s
     return false;
   };
   const double near = end.base + slack_ + end.touch;  // upper bound of every skin
-  const auto room_covers = [&](const Guard& room) { return covers(room.object); };
+  const auto room_covers = [&](const Guard& room) { return !in_air(room) && covers(room.object); };
   if (std::any_of(compiled_.rooms.begin(), compiled_.rooms.end(), covers)) { return true; }
   if (std::any_of(compiled_.face_rooms.begin(), compiled_.face_rooms.end(), room_covers)) { return true; }
   const auto at_p = [&](const Box& box) { return box.contains(p, near); };

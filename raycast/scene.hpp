@@ -267,8 +267,9 @@ class Scene {
   };
   std::vector<Walls> walls_;  // by room
   Compiled compiled_;
-  std::vector<std::uint32_t> placed_;  // the objects that are no rooms and are not left out
-  Bvh places_;                         // of their bounds: a search around a point need not visit the faces of meshes
+  std::vector<std::uint32_t> guard_of_;  // by object: its index in compiled_.guards, or no_shape
+  std::vector<std::uint32_t> placed_;    // the objects that are no rooms and are not left out
+  Bvh places_;                           // of their bounds: a search around a point need not visit the faces of meshes
   OtherCaster other_;
   Isa isa_;
   Box bounds_;
