@@ -5,6 +5,7 @@
 // A few short paths for each point tell its brightness to some tens of percent; what reflects a hundredth of what is usual is told from
 // what is well lit, no more.
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>

@@ -71,8 +71,8 @@ apps::Model house(std::mt19937& random, const glm::dvec3& room, double size, Lig
   std::uniform_real_distribution<double> unit(0.0, 1.0);
   apps::Model model = empty_model();
   const bool slit = light == Light::slit;
-  const double thick = 0.1 + 0.2 * unit(random), wide = slit ? 0.01 + 0.2 * unit(random) : (0.7 + 0.2 * unit(random)) * room.x,
-               at = slit ? room.x * (0.2 + 0.5 * unit(random)) : 0.05 * room.x;
+  const double thick = 0.1 + 0.2 * unit(random), wide = slit ? 0.01 + 0.2 * unit(random) : (0.45 + 0.2 * unit(random)) * room.x,
+               at = room.x * (slit ? 0.2 + 0.5 * unit(random) : 0.15);
   const auto block = [&](const glm::dvec3& lo, const glm::dvec3& hi) { add_box(model, size * lo, size * hi, false); };
   const glm::dvec3 out = room + glm::dvec3(thick);
   block({-thick, -thick, -thick}, {out.x, out.y, 0});
@@ -122,7 +122,7 @@ TEST_CASE("a room whose lamp shines at the ceiling is looked at as a doll's hous
     const glm::dvec3 room = size * glm::dvec3(3.0 + 2.0 * unit(random), 3.0 + 2.0 * unit(random), 2.3 + unit(random));
     apps::Model model = empty_model();
     add_box(model, glm::dvec3(0.0), room, true);
-    add_lamp(model, room * glm::dvec3(0.3 + 0.4 * unit(random), 0.3 + 0.4 * unit(random), 0.8 + 0.18 * unit(random)),
+    add_lamp(model, room * glm::dvec3(0.3 + 0.4 * unit(random), 0.3 + 0.4 * unit(random), 0.75 + 0.15 * unit(random)),
              size * (0.2 + 0.8 * unit(random)), true);
     const apps::SceneFile file = taken(std::move(model));
     CAPTURE(round, size, room.x / size, room.y / size, room.z / size);
