@@ -28,8 +28,8 @@ class SeenLight {
   // Nothing for an invalid scene, or for one in which nothing emits.
   [[nodiscard]] static std::optional<SeenLight> make(const Scene& scene);
 
-  // The light that a surface reflects, in its brightest channel, at a point of it, in scene coordinates, without what was reflected more than `most`
-  // times; in a unit common to the scene. `key` chooses the random numbers.
+  // The light that a surface reflects, in its brightest channel, at a point of it, in scene coordinates, without what was reflected more
+  // than `most` times; in a unit common to the scene. `key` chooses the random numbers.
   [[nodiscard]] double reflected(const raycast::ScenePoint& at, std::uint32_t most, std::uint64_t key) const;
 
   // Nine tenths of the reflected light come from surfaces that are at least so bright, in the unit of reflected(). So what leaks out of a
