@@ -21,6 +21,7 @@
 #include <radiosity/scene/material.hpp>
 #include <radiosity/scene/scene.hpp>
 
+#include "apps/commands/picture_warnings.hpp"
 #include "apps/export/export_mesh.hpp"
 #include "apps/light_file.hpp"
 #include "apps/memory.hpp"
@@ -55,31 +56,6 @@ std::optional<ExportMesh> exported_mesh(const RenderOptions& options, const Scen
   report.files.push_back(options.lightmap);
   report.lightmap = LightmapReport{texture->picture.width, texture->picture.height, texture->texel};
   return mesh;
-}
-
-// For a picture that is completely black: says how much of it shows backs of surfaces, dark surfaces or nothing, and what to try. Empty
-// if some pixel sees more than 1e-9 of the radiosity of the brightest lamp.
-std::string warning_of_dark_picture(const radiosity::Picture& picture, const SceneFile& file, const radiosity::View& view) {
-  double most = 0.0;
-  for (const radiosity::Material& material : file.scene.materials) { most = std::max(most, radiosity::brightest(material.emission)); }
-  const auto lit = [&](const glm::dvec3& radiosity) { return radiosity::brightest(radiosity) > 1e-9 * most; };
-  if (std::any_of(picture.radiosity.begin(), picture.radiosity.end(), lit)) { return {}; }
-  std::vector<raycast::PlacedObject> objects;
-  for (const radiosity::SceneObject& object : file.scene.objects) { objects.emplace_back(object.shape, object.placement); }
-  const raycast::Scene scene(std::move(objects));
-  constexpr int across = 32, down = 24, rays = across * down;
-  int fronts = 0, backs = 0;
-  for (int i = 0; i < rays; ++i) {
-    const double x = (i % across + 0.5) / across * view.size.width, y = (i / across + 0.5) / down * view.size.height;
-    const auto hit = scene.closest({view.eye, view.direction(x, y)});
-    if (hit) { ++(hit->front ? fronts : backs); }
-  }
-  const auto percent = [&](int count) { return std::to_string(std::lround(100.0 * count / rays)) + " %"; };
-  std::string text = "the picture is black: no pixel of it sees any light. Of its area " + percent(backs) +
-                     " first meets the backs of surfaces, " + percent(fronts) + " the fronts of dark ones, " +
-                     percent(rays - fronts - backs) + " nothing; try another place (--camera)";
-  if (backs > 0) { text += ", or give the surfaces two sides (--two-sided, or two-sided after a mesh of a scene)"; }
-  return text;
 }
 
 // The line below the title of a page: the size and the error of the solution.
@@ -227,7 +203,9 @@ const radiosity::Picture* drawn(Artist& artist, const radiosity::Solution& solut
   }
   report.picture = PictureReport{artist.camera(), artist.size().width, artist.size().height, method};
   watch.lap("picture");
-  if (std::string sentence = warning_of_dark_picture(*picture, artist.file(), artist.view()); !sentence.empty()) {
+  const bool automatic = !options.exposure || options.exposure->of_automatic;
+  if (std::string sentence = warning_of_picture(*picture, artist.file(), artist.view(), automatic ? &tone : nullptr, report.audit.surfaces);
+      !sentence.empty()) {
     report.audit.warnings.push_back(std::move(sentence));
   }
   const bool wanted = !report.audit.picture_error && options.solver.audit_points > 0;

@@ -58,26 +58,25 @@ void AddedLight::look_for_light() {
 }
 
 void AddedLight::choose_view(const LightViews& views) {
-  const double usual = views.lit_share(radiosity::automatic_camera(file_.scene));
+  auto inside = views.inside();
+  const double light = views.usual_light(inside), usual = views.shown_share(radiosity::automatic_camera(file_.scene), light);
   if (usual >= LightViews::little_light) { return; }
-  double most = 0.0;
+  double most = usual;
   radiosity::Camera best;
   for (const radiosity::Camera& camera : radiosity::outside_cameras(file_.scene)) {
-    const double share = views.lit_share(camera);
+    const double share = views.shown_share(camera, light);
     if (share > most) {
       most = share;
       best = camera;
     }
   }
-  if (most >= LightViews::much_light) {
+  if (inside && views.shown_share(inside->camera, light) >= std::max(LightViews::tol_dark, LightViews::much_more * most)) {
+    note("from outside little is seen of its light: the camera stands in the room of a lamp");
+    file_.cameras.push_back(std::move(inside->camera));
+  } else if (most >= LightViews::much_light) {
     note("the camera stands outside, on the side from which most of its light is seen");
     file_.cameras.push_back(std::move(best));
-    return;
   }
-  auto inside = views.inside();
-  if (!inside || inside->lit < (usual >= LightViews::tol_dark ? LightViews::much_light : LightViews::tol_dark)) { return; }
-  note("from outside little is seen of its light: the camera stands in the room of a lamp");
-  file_.cameras.push_back(std::move(inside->camera));
 }
 
 // The bounds of the closed rooms that can be seen: from outside, like a doll's house, unless they are within walls with a thickness;

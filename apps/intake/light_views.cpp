@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <numbers>
 #include <tuple>
 #include <utility>
@@ -14,6 +15,7 @@
 
 #include <raycast/objects/polygon.hpp>
 
+#include <radiosity/audit/seen_light.hpp>
 #include <radiosity/scene/bounds.hpp>
 #include <radiosity/scene/material.hpp>
 
@@ -25,12 +27,24 @@ struct HangingPlace {
   double room = 0.0;  // smallest distance to anything around and below it
 };
 
+constexpr std::uint32_t reflections = 5;  // that light has had which a picture will show
+
+// The value below which this share of all values lies; 0 if there are none.
+double share_below(std::vector<double> values, double share) {
+  if (values.empty()) { return 0.0; }
+  const auto place = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), place, values.end());
+  return *place;
+}
+
 }  // namespace
 
 // A surface with less than a hundredth of the largest exitance does not count as a lamp: many programs give every material a little
 // emission. Suns, which lie outside of what they light, are not considered for the largest.
 LightViews::LightViews(const radiosity::Scene& scene)
-    : objects_(radiosity::placed_objects(scene)), size_(radiosity::lit_bounds(scene).diameter()) {
+    : objects_(radiosity::placed_objects(scene)),
+      size_(radiosity::lit_bounds(scene).diameter()),
+      light_(radiosity::SeenLight::make(scene)) {
   const std::vector<radiosity::InputSurface> surfaces = radiosity::surfaces(scene);
   const auto exitance = [&](const radiosity::InputSurface& s) { return radiosity::brightest(scene.materials[s.material].emission); };
   double most = 0.0;
@@ -38,20 +52,16 @@ LightViews::LightViews(const radiosity::Scene& scene)
   for (const radiosity::InputSurface& surface : surfaces) {
     if (lit.contains(objects_.object(surface.object).bounds().centre())) { most = std::max(most, exitance(surface)); }
   }
-  std::vector<const radiosity::InputSurface*> shining;
+  const double least = 0.01 * most;
   std::vector<double> power(scene.objects.size(), 0.0);  // approximate
   for (const radiosity::InputSurface& surface : surfaces) {
-    if (!(exitance(surface) > 0.01 * most)) { continue; }
-    shining.push_back(&surface);
+    if (!(exitance(surface) > least)) { continue; }
+    shine_.insert({surface.object, surface.sheet});
     const double across = objects_.object(surface.object).bounds().diameter();
     power[surface.object] = std::max(power[surface.object], exitance(surface) * across * across);
   }
   constexpr std::size_t most_points = 64;
-  for (std::size_t i = 0; i < std::min(most_points, shining.size()); ++i) {
-    const radiosity::InputSurface& surface = *shining[i * shining.size() / std::min(most_points, shining.size())];
-    const raycast::PlacedObject& object = objects_.object(surface.object);
-    points_.push_back({object.project(surface.sheet, object.bounds().centre()), surface.object, surface.sheet});
-  }
+  if (light_) { points_ = light_->lamp_points(scene, least, most_points); }
   for (std::uint32_t o = 0; o < power.size(); ++o) {
     if (power[o] > 0.0) { lamps_.push_back(o); }
   }
@@ -62,18 +72,20 @@ LightViews::LightViews(const radiosity::Scene& scene)
   std::sort(lamps_.begin(), lamps_.end(), [&](std::uint32_t a, std::uint32_t b) { return rank(a) < rank(b); });
 }
 
-bool LightViews::lit(const raycast::ScenePoint& at) const {
-  return std::any_of(points_.begin(), points_.end(), [&](const raycast::ScenePoint& lamp) {
-    const raycast::PlacedObject& shape = objects_.object(lamp.object);
-    raycast::SurfacePoint on = lamp;
-    if (!shape.flat()) { on = shape.project(lamp.sheet, at.position); }  // on a curved lamp the nearest point
-    const glm::dvec3 way = on.position - at.position;
-    return lamp.object == at.object || (glm::dot(way, at.normal) > 0.0 && glm::dot(way, on.normal) < 0.0 &&
-                                        !objects_.occluded({at.position, way}, at.object, lamp.object));
-  });
+LightViews::Light LightViews::light(const std::vector<raycast::ScenePoint>& points, std::uint32_t most) const {
+  Light of;
+  if (!light_) { return of; }
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (shine_.contains({points[i].object, points[i].sheet})) {
+      ++of.lamps;
+    } else {
+      of.reflected.push_back(light_->reflected(points[i], most, i));
+    }
+  }
+  return of;
 }
 
-LightViews::Seen LightViews::seen(const radiosity::Camera& camera, std::uint32_t across, bool with_light) const {
+LightViews::Seen LightViews::seen(const radiosity::Camera& camera, std::uint32_t across) const {
   const radiosity::View view = radiosity::make_view(camera, {across, across * 3 / 4});
   const std::uint32_t rays = view.size.width * view.size.height;
   Seen of;
@@ -81,16 +93,36 @@ LightViews::Seen LightViews::seen(const radiosity::Camera& camera, std::uint32_t
     raycast::Segment ray{view.eye, view.direction(i % across + 0.5, i / across + 0.5)};
     const auto hit = radiosity::seen_front(objects_, ray);
     if (!hit) { continue; }
-    of.met += 1.0 / rays;
     if (ray.origin == view.eye) { of.fronts += 1.0 / rays; }
-    if (with_light && lit(objects_.point(*hit, ray))) { of.lit += 1.0 / rays; }
+    of.points.push_back(objects_.point(*hit, ray));
   }
+  of.met = static_cast<double>(of.points.size()) / rays;
   return of;
 }
 
 double LightViews::lit_share(const radiosity::Camera& camera) const {
-  const Seen of = seen(camera, fine, true);
-  return of.met > 0.0 ? of.lit / of.met : 0.0;
+  const Seen of = seen(camera, fine);
+  if (of.points.empty()) { return 0.0; }
+  const Light direct = light(of.points, 1);
+  const auto lit = std::ranges::count_if(direct.reflected, [](double light) { return light > 0.0; });
+  return static_cast<double>(direct.lamps + static_cast<std::size_t>(lit)) / static_cast<double>(of.points.size());
+}
+
+double LightViews::shown(const Seen& of, double usual) const {
+  constexpr double black = 0.002;  // relative to what is shown bright: 5 of 255 levels
+  constexpr double faint = 0.01;   // relative to what is usual
+  if (of.points.empty()) { return 0.0; }
+  const Light all = light(of.points, reflections);
+  const double least = std::max(faint * usual, black * share_below(all.reflected, 0.98));  // as radiosity::automatic_exposure
+  const auto bright = std::ranges::count_if(all.reflected, [&](double light) { return light > 0.0 && light >= least; });
+  return static_cast<double>(all.lamps + static_cast<std::size_t>(bright)) / static_cast<double>(of.points.size());
+}
+
+double LightViews::shown_share(const radiosity::Camera& camera, double usual) const { return shown(seen(camera, fine), usual); }
+
+double LightViews::usual_light(const std::optional<Chosen>& inside) const {
+  if (!light_ || !inside) { return 0.0; }
+  return std::min(light_->usual(), share_below(light(seen(inside->camera, fine).points, reflections).reflected, 0.5));
 }
 
 double LightViews::free_way(const glm::dvec3& from, const glm::dvec3& direction) const {
@@ -138,7 +170,7 @@ std::optional<radiosity::Camera> LightViews::across_room(glm::dvec3 middle) cons
     // ceiling.
     const double below = free_way(camera.eye, {0, 0, -1}), above = free_way(camera.eye, {0, 0, 1});
     if (below > 0.0 && above > 0.0) { camera.eye.z += eye_height * (below + above) - below; }
-    const double fronts = seen(camera, coarse, false).fronts;
+    const double fronts = seen(camera, coarse).fronts;
     most = std::max(most, fronts);
     views.push_back({std::move(camera), way, fronts});
   }
@@ -156,7 +188,7 @@ std::optional<radiosity::Camera> LightViews::across_room(glm::dvec3 middle) cons
   for (const double tilt : {-0.2, 0.2, -0.4, 0.4}) {
     radiosity::Camera tilted = best->camera;
     tilted.forward.z = tilt * length;
-    const double fronts = seen(tilted, coarse, false).fronts;
+    const double fronts = seen(tilted, coarse).fronts;
     if (fronts > shown + clearly_more) {
       shown = fronts;
       camera = tilted;
@@ -165,15 +197,26 @@ std::optional<radiosity::Camera> LightViews::across_room(glm::dvec3 middle) cons
   return camera;
 }
 
+// Many lamps stand in niches, behind letters or close to a wall, from where next to nothing is seen. So of the views that show about as
+// much light and as few openings as any, the one that sees furthest is taken.
 std::optional<LightViews::Chosen> LightViews::inside() const {
   constexpr std::size_t most_lamps = 8;
-  constexpr double enough = 0.5;
-  std::optional<Chosen> best;
+  constexpr double enough = 0.5, as_bright = 0.8, as_closed = 0.95, in_air = 0.9;
+  struct Candidate {
+    Chosen view;
+    double met = 0.0, reach = 0.0;  // share of the rays that meet anything, and how far, in the median
+  };
+  std::vector<Candidate> views;
+  double most = 0.0;
   const auto look = [&](const glm::dvec3& middle) {
-    if (best && best->lit >= enough) { return; }
-    std::optional<radiosity::Camera> camera = across_room(middle);
-    const double lit = camera ? seen(*camera, fine, true).lit : 0.0;
-    if (lit > (best ? best->lit : 0.0)) { best = {std::move(*camera), lit}; }
+    const std::optional<radiosity::Camera> camera = across_room(middle);
+    if (!camera) { return; }
+    const Seen of = seen(*camera, coarse);
+    if (of.fronts < in_air * of.met) { return; }  // in a solid, the backs of which it sees
+    std::vector<double> distances;
+    for (const raycast::ScenePoint& at : of.points) { distances.push_back(glm::length(at.position - camera->eye)); }
+    views.push_back({{*camera, of.met * shown(of, 0.0)}, of.met, share_below(std::move(distances), 0.5)});
+    most = std::max(most, views.back().view.lit);
   };
   const double off = 1e-4 * size_;
   for (std::size_t i = 0; i < std::min(most_lamps, lamps_.size()); ++i) {
@@ -181,8 +224,15 @@ std::optional<LightViews::Chosen> LightViews::inside() const {
     look({box.centre().x, box.centre().y, box.lo.z - off});
     look({box.centre().x, box.centre().y, box.hi.z + off});
   }
-  for (const raycast::ScenePoint& lamp : points_) { look(lamp.position + off * lamp.normal); }
-  return best;
+  for (std::size_t i = 0; i < points_.size() && most < enough; ++i) { look(points_[i].position + off * points_[i].normal); }
+  std::erase_if(views, [&](const Candidate& candidate) { return candidate.view.lit < as_bright * most; });
+  double closed = 0.0;
+  for (const Candidate& candidate : views) { closed = std::max(closed, candidate.met); }
+  const Candidate* best = nullptr;
+  for (const Candidate& candidate : views) {
+    if (candidate.met >= as_closed * closed && (best == nullptr || candidate.reach > best->reach)) { best = &candidate; }
+  }
+  return best != nullptr && most > 0.0 ? std::optional{best->view} : std::nullopt;
 }
 
 std::optional<raycast::Box> LightViews::room_around(const glm::dvec3& eye) const {

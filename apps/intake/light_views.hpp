@@ -3,16 +3,25 @@
 
 // Determines how much of a model's light cameras see; finds a camera inside if the automatic one sees almost none of it, as for
 // a house with lamps in its rooms; and places lamps in rooms without any.
+//
+// A camera can be judged by what lamps shine on directly, or by what its picture will show as more than black, in light reflected by
+// other surfaces, too: a room whose lamp shines at the ceiling is bright all over. The exposure is chosen by what is brightest in the
+// picture, so a surface five hundred times darker is black. And a surface must reflect at least a hundredth of what is usual in the scene:
+// of a house whose light leaks out through a slit, the automatic exposure would show the leak.
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <set>
+#include <utility>
 #include <vector>
 
 #include <raycast/box.hpp>
 #include <raycast/object.hpp>
 #include <raycast/scene.hpp>
 
+#include <radiosity/audit/seen_light.hpp>
 #include <radiosity/camera/view.hpp>
 #include <radiosity/scene/scene.hpp>
 
@@ -22,12 +31,12 @@ namespace apps {
 
 class LightViews {
  public:
-  // If less than this share of what a camera sees is lit directly by a lamp, that is almost nothing.
+  // If less than this share of what a camera sees is lit, that is almost nothing.
   static constexpr double tol_dark = 0.02;
   // Seen from outside, a house shows its light only through some windows. If less than `little_light` of what the automatic view sees is
-  // lit, a view from inside replaces it, provided that at least `much_light` of what this sees is lit (`tol_dark`, if the automatic view
-  // sees less than that).
-  static constexpr double little_light = 0.2, much_light = 0.5;
+  // shown, a view from inside replaces it, if that shows at least `much_more` times as large a part of what it sees as any from outside;
+  // else a view from another side, if it shows `much_light`.
+  static constexpr double little_light = 0.4, much_light = 0.5, much_more = 1.5;
 
   explicit LightViews(const radiosity::Scene& scene);
 
@@ -35,13 +44,20 @@ class LightViews {
   // rays pass through the backs of surfaces.
   [[nodiscard]] double lit_share(const radiosity::Camera& camera) const;
 
+  // The same of what the picture will show as more than black; `usual`: the light of the scene, as usual_light() tells it.
+  [[nodiscard]] double shown_share(const radiosity::Camera& camera, double usual) const;
+
   struct Chosen {
     radiosity::Camera camera;
-    double lit = 0.0;  // share of all rays of its picture that meet what is lit
+    double lit = 0.0;  // share of its picture that is not black
   };
-  // A view across the room of one of the brightest lamps, from its far end: the view that sees most light. Where the room is open, it looks
+  // A view across the room of one of the brightest lamps, from its far end: a view that shows much light. Where the room is open, it looks
   // away from the opening. Nothing if there is no lamp or no suitable place. Does not depend on the order of the polygons of a lamp.
   [[nodiscard]] std::optional<Chosen> inside() const;
+
+  // The light of what is seen around lamps: the median of the view from inside, or by which most light is reflected (SeenLight::usual),
+  // whichever is less, because that view might be one into a lampshade. 0: not known.
+  [[nodiscard]] double usual_light(const std::optional<Chosen>& inside) const;
 
   // The bounds of what is seen from a point all around; nothing if more than a tenth of the directions meet nothing, because light from
   // outside then reaches the surroundings.
@@ -52,15 +68,22 @@ class LightViews {
   [[nodiscard]] std::shared_ptr<const raycast::Object> ceiling_lamp(const raycast::Box& room) const;
 
  private:
-  // Of the rays of a picture: the shares that meet a front first, that meet one after some backs, and one that is lit.
+  // What the rays of a picture meet: the shares of them that meet a front first, and a front after any number of backs, and these points.
   struct Seen {
-    double fronts = 0.0, met = 0.0, lit = 0.0;
+    double fronts = 0.0, met = 0.0;
+    std::vector<raycast::ScenePoint> points;
   };
   static constexpr std::uint32_t fine = 24, coarse = 12;  // rays across
 
-  // `across`: rays from left to right. Without light, `lit` stays 0.
-  [[nodiscard]] Seen seen(const radiosity::Camera& camera, std::uint32_t across, bool with_light) const;
-  [[nodiscard]] bool lit(const raycast::ScenePoint& at) const;
+  [[nodiscard]] Seen seen(const radiosity::Camera& camera, std::uint32_t across) const;
+  // Of these points the number on lamps, and the light that each of the others reflects, without what was reflected more than `most` times.
+  struct Light {
+    std::size_t lamps = 0;
+    std::vector<double> reflected;
+  };
+  [[nodiscard]] Light light(const std::vector<raycast::ScenePoint>& points, std::uint32_t most) const;
+  // The share of these points that a picture shows as more than black.
+  [[nodiscard]] double shown(const Seen& of, double usual) const;
   // The distance to the first surface; 0 if its back is seen or there is none, because the point is then not in the air of a room.
   [[nodiscard]] double free_way(const glm::dvec3& from, const glm::dvec3& direction) const;
   // The same, horizontally; in a direction in which the room is open, the distance to the opening.
@@ -68,9 +91,11 @@ class LightViews {
   [[nodiscard]] std::optional<radiosity::Camera> across_room(glm::dvec3 middle) const;
 
   raycast::Scene objects_;
-  double size_ = 0.0;                        // of what is lit
-  std::vector<raycast::ScenePoint> points_;  // on some of the lamps
-  std::vector<std::uint32_t> lamps_;         // objects, by decreasing power
+  double size_ = 0.0;                                        // of what is lit
+  std::optional<radiosity::SeenLight> light_;                // nothing if nothing emits
+  std::set<std::pair<std::uint32_t, std::uint32_t>> shine_;  // object and sheet of all lamps
+  std::vector<raycast::ScenePoint> points_;                  // on some of them
+  std::vector<std::uint32_t> lamps_;                         // objects, by decreasing power
 };
 
 }  // namespace apps
