@@ -19,6 +19,7 @@
 #include <radiosity/scene/bounds.hpp>
 #include <radiosity/scene/scene.hpp>
 
+#include "apps/intake/open_rooms.hpp"
 #include "apps/text.hpp"
 #include "apps/words.hpp"
 
@@ -94,15 +95,14 @@ std::vector<raycast::Box> AddedLight::closed_rooms() const {
   return rooms;
 }
 
-// Most rooms of other programs are no closed shells: each wall is an object, and windows and doors are open. Nothing if the first camera,
-// which draws the picture, stands in none.
+// Nothing if the first camera, which draws the picture, stands in none.
 std::vector<raycast::Box> AddedLight::rooms_of_cameras() const {
   std::vector<raycast::Box> rooms;
-  const LightViews views(file_.scene);
+  const OpenRooms open(file_.scene);
   for (const radiosity::Camera& camera : std::span(file_.cameras).first(std::min(most_lamps, file_.cameras.size()))) {
     const auto around = [&](const raycast::Box& room) { return room.contains(camera.eye); };
     if (std::any_of(rooms.begin(), rooms.end(), around)) { continue; }
-    const std::optional<raycast::Box> room = views.room_around(camera.eye);
+    const std::optional<raycast::Box> room = open.around(camera.eye);
     if (room) { rooms.push_back(*room); }
     if (rooms.empty()) { break; }
   }
@@ -142,7 +142,11 @@ bool AddedLight::light_rooms_without_sun(std::vector<std::string>& faults) {
 bool AddedLight::light_model(std::vector<std::string>& faults) {
   const std::vector<raycast::Box> closed = closed_rooms();
   if (!closed.empty()) { return add_room_lamps(closed) || refused(faults); }
-  if (!add_room_lamps(rooms_of_cameras())) { add_studio(); }
+  std::vector<raycast::Box> rooms = rooms_of_cameras();
+  if (file_.cameras.empty()) {
+    if (const auto hidden = OpenRooms(file_.scene).hidden()) { rooms.push_back(*hidden); }
+  }
+  if (!add_room_lamps(rooms)) { add_studio(); }
   return true;
 }
 

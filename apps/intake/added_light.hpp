@@ -25,9 +25,9 @@ class AddedLight {
   AddedLight(SceneFile& file, const std::vector<radiosity::Room>& rooms, std::string advice, bool eye_chosen)
       : file_(file), rooms_(rooms), advice_(std::move(advice)), eye_chosen_(eye_chosen) {}
 
-  // A model without any lamp gets lamps under the ceilings of its closed rooms, or of the rooms that its cameras stand in, because light
-  // from outside would not reach these. If it has none, it is put into a studio, so that it can be seen: floor, walls, and a lamp in the
-  // ceiling. Returns false, and a fault, if no lamp fits into its closed rooms.
+  // A model without any lamp gets lamps under the ceilings of its closed rooms, or of the rooms that its cameras stand in, or of one that
+  // nobody sees from outside, because light from outside would not reach these. If it has none, it is put into a studio, so that it can be
+  // seen: floor, walls, and a lamp in the ceiling. Returns false, and a fault, if no lamp fits into its closed rooms.
   bool light_model(std::vector<std::string>& faults);
 
   // Such rooms get lamps, too, if a sun lights nothing that is seen.

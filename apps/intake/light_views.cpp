@@ -235,22 +235,6 @@ std::optional<LightViews::Chosen> LightViews::inside() const {
   return best != nullptr && most > 0.0 ? std::optional{best->view} : std::nullopt;
 }
 
-std::optional<raycast::Box> LightViews::room_around(const glm::dvec3& eye) const {
-  constexpr int directions = 512;
-  constexpr double most_open = 0.1;  // a doorway covers a few hundredths of what is seen, a wall or a ceiling that is not there a sixth
-  const double golden_angle = std::numbers::pi * (3.0 - std::sqrt(5.0));  // directions of a spiral (Vogel 1979) cover the sphere evenly
-  raycast::Box seen;
-  int open = 0;
-  for (int i = 0; i < directions; ++i) {
-    const double z = 1.0 - 2.0 * (i + 0.5) / directions, aside = std::sqrt(1.0 - z * z), angle = golden_angle * i;
-    const glm::dvec3 direction{aside * std::cos(angle), aside * std::sin(angle), z};
-    const auto hit = objects_.closest({eye, direction});
-    if (hit) { seen.extend(eye + hit->t * direction); }
-    open += hit ? 0 : 1;
-  }
-  return open <= most_open * directions ? std::optional{seen} : std::nullopt;
-}
-
 std::shared_ptr<const raycast::Object> LightViews::ceiling_lamp(const raycast::Box& box) const {
   constexpr int steps = 9;  // odd, so that the middle of the room is among the positions
   std::vector<HangingPlace> places;

@@ -59,10 +59,6 @@ class LightViews {
   // whichever is less, because that view might be one into a lampshade. 0: not known.
   [[nodiscard]] double usual_light(const std::optional<Chosen>& inside) const;
 
-  // The bounds of what is seen from a point all around; nothing if more than a tenth of the directions meet nothing, because light from
-  // outside then reaches the surroundings.
-  [[nodiscard]] std::optional<raycast::Box> room_around(const glm::dvec3& eye) const;
-
   // A lamp for a closed room without light: a square close below the ceiling (z up) of the room within these bounds, facing down, where
   // there is most air around and below it. Null if no place was found.
   [[nodiscard]] std::shared_ptr<const raycast::Object> ceiling_lamp(const raycast::Box& room) const;

@@ -31,11 +31,11 @@ apps::Model empty_model() {
 }
 
 // A square that shines down or up.
-void add_lamp(apps::Model& model, const glm::dvec3& middle, double side, bool up) {
+void add_lamp(apps::Model& model, const glm::dvec3& middle, double width, bool up) {
   std::vector<std::uint32_t> corners;
   for (const glm::dvec3 corner : {glm::dvec3(-1, -1, 0), glm::dvec3(-1, 1, 0), glm::dvec3(1, 1, 0), glm::dvec3(1, -1, 0)}) {
     corners.push_back(static_cast<std::uint32_t>(model.positions.size()));
-    model.positions.push_back(middle + 0.5 * side * corner);
+    model.positions.push_back(middle + 0.5 * width * corner);
   }
   if (up) { std::reverse(corners.begin(), corners.end()); }
   model.polygon(corners, 1, 1);
@@ -49,11 +49,11 @@ apps::SceneFile taken(apps::Model model, const apps::ModelOptions& options = {})
 }
 
 // A bar under the ceiling, of which both ends are bent down and shine. The middle of it is far from both.
-void add_bent_lamp(apps::Model& model, const glm::dvec3& middle, double length, double side) {
+void add_bent_lamp(apps::Model& model, const glm::dvec3& middle, double length, double width) {
   std::vector<std::uint32_t> rows;
   for (const auto& [x, z] :
-       {std::pair{-0.5 * length - side, -side}, {-0.5 * length, 0.0}, {0.5 * length, 0.0}, {0.5 * length + side, -side}}) {
-    for (const double y : {-0.5 * side, 0.5 * side}) {
+       {std::pair{-0.5 * length - width, -width}, {-0.5 * length, 0.0}, {0.5 * length, 0.0}, {0.5 * length + width, -width}}) {
+    for (const double y : {-0.5 * width, 0.5 * width}) {
       rows.push_back(static_cast<std::uint32_t>(model.positions.size()));
       model.positions.push_back(middle + glm::dvec3(x, y, z));
     }

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#include "apps/intake/open_rooms.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+
+#include <raycast/ray.hpp>
+
+#include <radiosity/camera/view.hpp>
+#include <radiosity/scene/bounds.hpp>
+
+namespace apps {
+namespace {
+
+constexpr double most_open = 0.1;  // a doorway covers a few hundredths of what is seen, a wall or a ceiling that is not there a sixth
+constexpr double open_beside_door = 0.25;
+
+}  // namespace
+
+OpenRooms::OpenRooms(const radiosity::Scene& scene) : scene_(scene), objects_(radiosity::placed_objects(scene)) {}
+
+OpenRooms::Around OpenRooms::look_around(const glm::dvec3& eye) const {
+  constexpr int directions = 512;
+  const double golden_angle = std::numbers::pi * (3.0 - std::sqrt(5.0));  // directions of a spiral (Vogel 1979) cover the sphere evenly
+  Around around;
+  for (int i = 0; i < directions; ++i) {
+    const double z = 1.0 - 2.0 * (i + 0.5) / directions, aside = std::sqrt(1.0 - z * z), angle = golden_angle * i;
+    const glm::dvec3 direction{aside * std::cos(angle), aside * std::sin(angle), z};
+    const auto hit = objects_.closest({eye, direction});
+    if (!hit) {
+      around.open += 1.0 / directions;
+      continue;
+    }
+    around.bounds.extend(eye + hit->t * direction);
+    around.fronts += hit->front ? 1.0 / directions : 0.0;
+    around.surfaces.emplace(hit->object, hit->sheet);
+  }
+  return around;
+}
+
+std::optional<raycast::Box> OpenRooms::around(const glm::dvec3& eye) const {
+  Around here = look_around(eye);
+  if (here.open <= most_open) { return here.bounds; }
+  if (here.open > open_beside_door || look_around(here.bounds.centre()).open > most_open) { return std::nullopt; }
+  return here.bounds;
+}
+
+std::optional<raycast::Box> OpenRooms::hidden() const {
+  constexpr std::size_t times = 3;
+  constexpr double most_backs = 0.02;
+  std::size_t outside = 0;
+  for (const radiosity::Camera& camera : radiosity::outside_cameras(scene_)) {
+    const radiosity::View view = radiosity::make_view(camera, {24, 18});
+    Surfaces seen;
+    for (std::uint32_t i = 0; i < view.size.width * view.size.height; ++i) {
+      raycast::Segment ray{view.eye, view.direction(i % view.size.width + 0.5, i / view.size.width + 0.5)};
+      if (const auto hit = radiosity::seen_front(objects_, ray)) { seen.emplace(hit->object, hit->sheet); }
+    }
+    outside = std::max(outside, seen.size());
+  }
+  const raycast::Box bounds = radiosity::bounds_without_strays(scene_);
+  std::optional<raycast::Box> room;
+  std::size_t most = times * outside;
+  constexpr int across = 5;
+  for (int i = 0; i < across * across * 2; ++i) {
+    const glm::dvec3 share{(i % across + 0.5) / across, (i / across % across + 0.5) / across, i < across * across ? 0.6 : 0.35};
+    const Around inside = look_around(bounds.lo + share * bounds.size());
+    if (inside.open > most_open || 1.0 - inside.open - inside.fronts > most_backs || inside.surfaces.size() < most) { continue; }
+    most = inside.surfaces.size() + 1;
+    room = inside.bounds;
+  }
+  return room;
+}
+
+}  // namespace apps

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Finds rooms in models of other programs. Most of these are no closed shells: each wall is an object, and windows and doors are open.
+
+#include <cstdint>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include <glm/vec3.hpp>
+
+#include <raycast/box.hpp>
+#include <raycast/scene.hpp>
+
+#include <radiosity/scene/scene.hpp>
+
+namespace apps {
+
+class OpenRooms {
+ public:
+  explicit OpenRooms(const radiosity::Scene& scene);
+
+  // The bounds of what is seen from a point all around; nothing if more than a tenth of the directions meet nothing, because light from
+  // outside then reaches the surroundings. Beside a doorway a quarter may, if from the middle of what is seen only a tenth does.
+  [[nodiscard]] std::optional<raycast::Box> around(const glm::dvec3& eye) const;
+
+  // The bounds of a room that nobody sees from outside: from a place in it, at least three times as many surfaces are seen as from any side
+  // outside, nearly all of them from the front. A box with furniture is one; a house with windows and a roof is not.
+  [[nodiscard]] std::optional<raycast::Box> hidden() const;
+
+ private:
+  using Surfaces = std::set<std::pair<std::uint32_t, std::uint32_t>>;  // object and sheet
+  // What is seen in many directions: its bounds, and the shares of directions that meet nothing, and fronts.
+  struct Around {
+    raycast::Box bounds;
+    double open = 0.0, fronts = 0.0;
+    Surfaces surfaces;
+  };
+  [[nodiscard]] Around look_around(const glm::dvec3& eye) const;
+
+  const radiosity::Scene& scene_;
+  raycast::Scene objects_;
+};
+
+}  // namespace apps
