@@ -146,7 +146,14 @@ bool AddedLight::light_model(std::vector<std::string>& faults) {
   if (file_.cameras.empty()) {
     if (const auto hidden = OpenRooms(file_.scene).hidden()) { rooms.push_back(*hidden); }
   }
-  if (!add_room_lamps(rooms)) { add_studio(); }
+  if (!add_room_lamps(rooms)) {
+    add_studio();
+  } else if (file_.cameras.empty()) {
+    if (auto inside = LightViews(file_.scene).inside()) {
+      note("from outside little is seen of what is in this room: the camera stands in it");
+      file_.cameras.push_back(std::move(inside->camera));
+    }
+  }
   return true;
 }
 

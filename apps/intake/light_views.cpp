@@ -236,9 +236,13 @@ std::optional<LightViews::Chosen> LightViews::inside() const {
 }
 
 std::shared_ptr<const raycast::Object> LightViews::ceiling_lamp(const raycast::Box& box) const {
-  constexpr int steps = 9;  // odd, so that the middle of the room is among the positions
-  std::vector<HangingPlace> places;
-  double most = 0.0;
+  constexpr int steps = 9;                // odd, so that the middle of the room is among the positions
+  std::vector<HangingPlace> places, low;  // low: in the lower half of the room, as under a table
+  // As free_way(); where the room is open, up to its bounds.
+  const auto free_in_room = [&](const glm::dvec3& from, const glm::dvec3& direction) {
+    if (objects_.closest({from, direction})) { return free_way(from, direction); }
+    return std::max(glm::dot(direction, box.lo - from), glm::dot(direction, box.hi - from));
+  };
   for (int i = 0; i < steps * steps * steps; ++i) {
     const glm::dvec3 share{(i % steps + 0.5) / steps, (i / steps % steps + 0.5) / steps, (i / steps / steps + 0.5) / steps};
     const glm::dvec3 point = box.lo + share * box.size();
@@ -246,14 +250,17 @@ std::shared_ptr<const raycast::Object> LightViews::ceiling_lamp(const raycast::B
     if (!(up > 0.0)) { continue; }
     const glm::dvec3 under = point + glm::dvec3(0, 0, 0.95 * up);
     if (objects_.covered(under, {0, 0, -1}, raycast::no_object)) { continue; }  // inside an object
-    double room_here = free_way(under, {0, 0, -1});
+    double room_here = free_in_room(under, {0, 0, -1});
     for (const glm::dvec3& side : {glm::dvec3(1, 0, 0), glm::dvec3(-1, 0, 0), glm::dvec3(0, 1, 0), glm::dvec3(0, -1, 0)}) {
-      room_here = std::min(room_here, free_way(under, side));
+      room_here = std::min(room_here, free_in_room(under, side));
     }
-    most = std::max(most, room_here);
-    places.push_back({under, room_here});
+    if (room_here > 0.0) { (under.z > box.centre().z ? places : low).push_back({under, room_here}); }
   }
-  if (!(most > 0.0)) { return nullptr; }
+  if (places.empty()) { places.swap(low); }
+  if (places.empty()) { return nullptr; }
+  const double most = std::ranges::max(places, {}, &HangingPlace::room).room;
+  constexpr double gap = 0.05;  // half as wide as this part of its height, the place is a gap between things, not a room
+  if (most < gap * box.size().z) { return nullptr; }
   // In a corridor there is equally much air everywhere; then the place nearest to the middle lights most of it.
   constexpr double as_good = 0.9;
   const HangingPlace* best = nullptr;

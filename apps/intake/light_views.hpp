@@ -59,8 +59,8 @@ class LightViews {
   // whichever is less, because that view might be one into a lampshade. 0: not known.
   [[nodiscard]] double usual_light(const std::optional<Chosen>& inside) const;
 
-  // A lamp for a closed room without light: a square close below the ceiling (z up) of the room within these bounds, facing down, where
-  // there is most air around and below it. Null if no place was found.
+  // A lamp for a room without light: a square close below the ceiling (z up) of the room within these bounds, facing down, where there is
+  // most air around and below it, in the upper half of the room if there is a place. Null if no place was found, or only narrow gaps.
   [[nodiscard]] std::shared_ptr<const raycast::Object> ceiling_lamp(const raycast::Box& room) const;
 
  private:

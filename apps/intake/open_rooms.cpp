@@ -50,6 +50,7 @@ std::optional<raycast::Box> OpenRooms::around(const glm::dvec3& eye) const {
 std::optional<raycast::Box> OpenRooms::hidden() const {
   constexpr std::size_t times = 3;
   constexpr double most_backs = 0.02;
+  constexpr double least_height = 0.2;  // of the ceiling above the eye, of the model's height: not the next floor of a house, or a shelf
   std::size_t outside = 0;
   for (const radiosity::Camera& camera : radiosity::outside_cameras(scene_)) {
     const radiosity::View view = radiosity::make_view(camera, {24, 18});
@@ -63,10 +64,12 @@ std::optional<raycast::Box> OpenRooms::hidden() const {
   const raycast::Box bounds = radiosity::bounds_without_strays(scene_);
   std::optional<raycast::Box> room;
   std::size_t most = times * outside;
-  constexpr int across = 5;
-  for (int i = 0; i < across * across * 2; ++i) {
-    const glm::dvec3 share{(i % across + 0.5) / across, (i / across % across + 0.5) / across, i < across * across ? 0.6 : 0.35};
-    const Around inside = look_around(bounds.lo + share * bounds.size());
+  constexpr int across = 7;
+  for (int i = 0; i < across * across; ++i) {
+    const glm::dvec3 eye = bounds.lo + glm::dvec3((i % across + 0.5) / across, (i / across + 0.5) / across, 0.6) * bounds.size();
+    const auto ceiling = objects_.closest({eye, {0, 0, 1}}), floor = objects_.closest({eye, {0, 0, -1}});
+    if (!ceiling || ceiling->t < least_height * bounds.size().z || !floor) { continue; }
+    const Around inside = look_around(eye);
     if (inside.open > most_open || 1.0 - inside.open - inside.fronts > most_backs || inside.surfaces.size() < most) { continue; }
     most = inside.surfaces.size() + 1;
     room = inside.bounds;
