@@ -54,8 +54,8 @@ struct ModelLight {
   // with a share of the angle (VRML 2.0), or from the axis with a power of the cosine (VRML 1.0, as in OpenGL).
   enum class Fade : unsigned char { squared_cosine, by_angle, power_of_cosine };
   Fade fade = Fade::squared_cosine;
-  double power = 0.0;            // of the cosine
-  bool fades_otherwise = false;  // in its file: not with the square of the distance, or it ends at a distance
+  double power = 0.0;  // of the cosine
+  bool fades_otherwise = false;          // in its file: not with the square of the distance, or it ends at a distance
 };
 
 // A run of consecutive polygons from one place: an included file or, in formats without lines, a list. The name is empty for the file
