@@ -19,13 +19,19 @@
 namespace apps {
 namespace {
 
+constexpr double most_black = 0.9;
+
+bool is_shown(const glm::vec3& pixel) {
+  constexpr float black_below = 0.0016f;  // 5 of 255 levels
+  return std::max({pixel.x, pixel.y, pixel.z}) >= black_below;
+}
+
 // What the rays of a coarse picture meet first, and the number of those that see a front, through backs or not, and of black ones.
 struct Coarse {
   static constexpr int across = 32, down = 24, rays = across * down;
   int fronts = 0, backs = 0, seen = 0, black = 0;
 
   Coarse(const radiosity::Picture& picture, const SceneFile& file, const radiosity::View& view) {
-    constexpr float black_below = 0.0016f;  // 5 of 255 levels
     const raycast::Scene objects(radiosity::placed_objects(file.scene));
     for (int i = 0; i < rays; ++i) {
       const double x = (i % across + 0.5) / across * view.size.width, y = (i / across + 0.5) / down * view.size.height;
@@ -34,8 +40,7 @@ struct Coarse {
       if (hit) { ++(hit->front ? fronts : backs); }
       if (!hit || !radiosity::seen_front(objects, ray)) { continue; }
       ++seen;
-      const glm::vec3& shown = picture.shown[static_cast<std::size_t>(y) * picture.width + static_cast<std::size_t>(x)];
-      black += std::max({shown.x, shown.y, shown.z}) < black_below ? 1 : 0;
+      black += is_shown(picture.shown[static_cast<std::size_t>(y) * picture.width + static_cast<std::size_t>(x)]) ? 0 : 1;
     }
   }
 };
@@ -91,13 +96,17 @@ std::string warning_of_picture(const radiosity::Picture& picture, const SceneFil
   double most = 0.0;
   for (const radiosity::Material& material : file.scene.materials) { most = std::max(most, radiosity::brightest(material.emission)); }
   const auto lit = [&](const glm::dvec3& radiosity) { return radiosity::brightest(radiosity) > 1e-9 * most; };
-  const Coarse coarse(picture, file, view);
-  if (std::none_of(picture.radiosity.begin(), picture.radiosity.end(), lit)) { return of_no_light(coarse); }
-  constexpr double most_black = 0.9, least_light = 1e-3;
-  if (coarse.seen > 0 && coarse.black >= most_black * coarse.seen) {
-    return "of what the camera sees, " + percent_of(coarse.black, coarse.seen) + " is black in the picture: the light is elsewhere; " +
-           advice(file);
+  if (std::none_of(picture.radiosity.begin(), picture.radiosity.end(), lit)) { return of_no_light(Coarse(picture, file, view)); }
+  // Where clearly more than a tenth of all pixels is not black, nobody needs to look what the rays of a coarse picture meet.
+  const auto shown = static_cast<double>(std::count_if(picture.shown.begin(), picture.shown.end(), is_shown));
+  if (shown <= 2.0 * (1.0 - most_black) * static_cast<double>(picture.shown.size())) {
+    const Coarse coarse(picture, file, view);
+    if (coarse.seen > 0 && coarse.black >= most_black * coarse.seen) {
+      return "of what the camera sees, " + percent_of(coarse.black, coarse.seen) + " is black in the picture: the light is elsewhere; " +
+             advice(file);
+    }
   }
+  constexpr double least_light = 1e-3;
   if (automatic != nullptr && 0.8 * std::numbers::pi / automatic->exposure < least_light * usual_light(file.scene, surfaces)) {
     return "the picture shows only what little light comes here, less than a thousandth of what is usual in the scene, so its exposure is "
            "extreme and its error may be large; " +
