@@ -21,7 +21,7 @@ namespace raycast {
 
 namespace detail {
 
-// By component, the median of the centres of all sheets' objects: few objects cannot move it away from the others.
+// By component, the median of the objects' centres, each counted once for each of its sheets: so a mesh and a sun are not equals.
 HALFLIGHT_INLINE glm::dvec3 median_centre(std::span<const PlacedObject> objects) {
   std::vector<std::uint32_t> order(objects.size());
   std::iota(order.begin(), order.end(), 0u);
@@ -50,6 +50,8 @@ HALFLIGHT_INLINE std::vector<std::uint32_t> far_objects(std::span<const PlacedOb
     std::uint32_t object;
     double nearest, farthest;  // distance from the middle, in the maximum norm
   };
+  const auto sound = [](const PlacedObject& object) { return !object.bounds().empty() && std::isfinite(object.bounds().diameter()); };
+  if (!std::all_of(objects.begin(), objects.end(), sound)) { return {}; }
   const glm::dvec3 middle = detail::median_centre(objects);
   std::vector<Reach> reaches;
   std::size_t sheets = 0;

@@ -39,7 +39,7 @@ HALFLIGHT_INLINE double Scene::ray_work() const {
   double work = 1.0;
   for (std::uint32_t i = 0; i < size(); ++i) {
     const PlacedObject& object = objects_[i];
-    if (left_out_[i]) { continue; }
+    if (left_out_[i] || is_far(i)) { continue; }
     // Faces that the fast search decides by itself cost next to nothing. Coincident faces, as of duplicates, need double precision.
     if (object.flat() && (!object.inside() || compiled_.is_face_room(i)) && at_place[key(object)] == 1) { continue; }
     work += object.object().work() * (whole > 0.0 && !object.inside() ? std::min(1.0, surface(object.bounds()) / whole) : 1.0);

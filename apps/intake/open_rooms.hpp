@@ -26,7 +26,7 @@ class OpenRooms {
   [[nodiscard]] std::optional<raycast::Box> around(const glm::dvec3& eye) const;
 
   // The bounds of a room that nobody sees from outside: from a place in it, at least three times as many surfaces are seen as from any side
-  // outside, nearly all of them from the front. A box with furniture is one; a house with windows and a roof, or of many floors, is not.
+  // outside, nearly all of them from the front. A box with furniture is one; a house that has more to show outside is not.
   [[nodiscard]] std::optional<raycast::Box> hidden() const;
 
  private:

@@ -37,9 +37,10 @@
 namespace radiosity {
 
 HALFLIGHT_INLINE std::optional<SeenLight> SeenLight::make(const Scene& scene) {
+  if (!faults(scene).empty()) { return std::nullopt; }
   const auto emits = [&](const InputSurface& s) { return !is_black(scene.materials[s.material].emission); };
   const std::vector<InputSurface> inputs = surfaces(scene);
-  if (!faults(scene).empty() || std::none_of(inputs.begin(), inputs.end(), emits)) { return std::nullopt; }
+  if (std::none_of(inputs.begin(), inputs.end(), emits)) { return std::nullopt; }
   PrepareResult result = prepare(scene);
   if (!result.prepared || !result.prepared->plan.lit) { return std::nullopt; }
   return SeenLight{in_unit(scene, light_unit(scene)), std::move(*result.prepared)};

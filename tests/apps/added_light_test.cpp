@@ -174,17 +174,11 @@ TEST_CASE("a room with a doorway and without a lamp is lit if the camera of the 
   for (int round = 0; round < 12; ++round) {
     const double size = std::exp(8.0 * unit(random) - 4.0), door = 0.5 + unit(random);
     const glm::dvec3 room = glm::dvec3(3.0 + 3.0 * unit(random), 3.0 + 2.0 * unit(random), 2.3 + unit(random));
-    const auto wall = [&](apps::Model& model, const glm::dvec3& lo, const glm::dvec3& hi) { add_box(model, size * lo, size * hi, false); };
     apps::Model model;
     model.groups = {"house"};
     model.materials = {{"grey", radiosity::Color(0.5)}};
-    wall(model, {-0.2, -0.2, -0.2}, {room.x + 0.2, room.y + 0.2, 0});
-    wall(model, {-0.2, -0.2, room.z}, {room.x + 0.2, room.y + 0.2, room.z + 0.2});
-    wall(model, {-0.2, -0.2, 0}, {0, room.y + 0.2, room.z});
-    wall(model, {room.x, -0.2, 0}, {room.x + 0.2, room.y + 0.2, room.z});
-    wall(model, {0, room.y, 0}, {room.x, room.y + 0.2, room.z});
-    wall(model, {door, -0.2, 0}, {room.x, 0, room.z});
-    wall(model, {0.6 * room.x, 0.6 * room.y, 0}, {0.8 * room.x, 0.8 * room.y, 0.8});
+    houses::add_walls_with_doorway(model, room, door, size);
+    add_box(model, size * glm::dvec3(0.6 * room.x, 0.6 * room.y, 0), size * glm::dvec3(0.8 * room.x, 0.8 * room.y, 0.8), false);
     const bool inside = round % 3 != 0;
     radiosity::Camera camera;
     camera.name = "given";

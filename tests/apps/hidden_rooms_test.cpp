@@ -21,20 +21,14 @@
 
 namespace {
 
-// A room of six thick walls, one with a doorway, each an object of its own; `inside`, `outside`: things on the floor and around the house.
+// A room with a doorway; `inside`, `outside`: numbers of things on its floor, and beside the house.
 apps::Model house(std::mt19937& random, const glm::dvec3& room, double scale, int inside, int outside) {
   std::uniform_real_distribution<double> unit(0.0, 1.0);
   apps::Model model;
   model.groups = {"house"};
   model.materials = {{"grey", radiosity::Color(0.5)}};
   const auto box = [&](const glm::dvec3& lo, const glm::dvec3& hi) { houses::add_box(model, scale * lo, scale * hi, false); };
-  const double thick = 0.2, door = 0.9;
-  box({-thick, -thick, -thick}, {room.x + thick, room.y + thick, 0});
-  box({-thick, -thick, room.z}, {room.x + thick, room.y + thick, room.z + thick});
-  box({-thick, -thick, 0}, {0, room.y + thick, room.z});
-  box({room.x, -thick, 0}, {room.x + thick, room.y + thick, room.z});
-  box({0, room.y, 0}, {room.x, room.y + thick, room.z});
-  box({door, -thick, 0}, {room.x, 0, room.z});
+  houses::add_walls_with_doorway(model, room, 0.9, scale);
   const auto things = [&](int count, const glm::dvec3& lo, const glm::dvec3& hi) {
     const int across = 6;
     for (int i = 0; i < count; ++i) {

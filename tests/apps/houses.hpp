@@ -30,6 +30,19 @@ inline void add_box(apps::Model& model, const glm::dvec3& lo, const glm::dvec3& 
   }
 }
 
+// Thick walls, floor and ceiling around a room from the origin, each a box of its own; a doorway as wide as `door` in the wall y = 0.
+inline void add_walls_with_doorway(apps::Model& model, const glm::dvec3& room, double door, double scale) {
+  const double thick = 0.2;
+  const glm::dvec3 out = room + glm::dvec3(thick);
+  const auto wall = [&](const glm::dvec3& lo, const glm::dvec3& hi) { add_box(model, scale * lo, scale * hi, false); };
+  wall({-thick, -thick, -thick}, {out.x, out.y, 0});
+  wall({-thick, -thick, room.z}, out);
+  wall({-thick, -thick, 0}, {0, out.y, room.z});
+  wall({room.x, -thick, 0}, {out.x, out.y, room.z});
+  wall({0, room.y, 0}, {room.x, out.y, room.z});
+  wall({door, -thick, 0}, {room.x, 0, room.z});
+}
+
 // As small a house as has what matters: a room with a thing in it, no lamp; walls of a thickness around it, or not.
 inline apps::Model house_without_lamp(bool walls) {
   apps::Model model;
