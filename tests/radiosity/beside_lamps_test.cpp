@@ -71,7 +71,7 @@ struct TubeUnderPlate {
 }  // namespace
 
 // Its brightest spot is a strip of the plate, far smaller than the leaves that all else asks for.
-TEST_CASE("light oracle: the bright spot that a lamp makes beside it is resolved, however near and thin the lamp is") {
+TEST_CASE("light oracle: the bright spot that a lamp makes beside it is resolved, however near and thin the lamp is", "[accuracy]") {
   const auto seed = test::seed();
   INFO("seed " << seed);
   for (std::uint64_t trial = 0; trial < 6; ++trial) {

@@ -102,7 +102,7 @@ TEST_CASE("the facets of an intersection of round solids are planar, each edge h
 }
 
 // The rim of a lens of two equal spheres is a circle; its chords are the farther off it the thinner the lens.
-TEST_CASE("the outline of a lens is as near to its rim as to its surfaces, however thin the lens") {
+TEST_CASE("the outline of a lens is as near to its rim as to its surfaces, however thin the lens", "[accuracy]") {
   const unsigned seed = test::seed();
   CAPTURE(seed);
   std::mt19937 random(seed);

@@ -67,7 +67,7 @@ std::vector<std::vector<Box>> household() {
 
 }  // namespace
 
-TEST_CASE("intake: a chair, a shelf and a partition with a door show their fronts, whichever way they were wound") {
+TEST_CASE("intake: a chair, a shelf and a partition with a door show their fronts, whichever way they were wound", "[accuracy]") {
   const unsigned seed = test::seed();
   for (int round = 0; round < 12; ++round) {
     INFO("seed " << seed << ", round " << round);
@@ -102,7 +102,7 @@ TEST_CASE("intake: a chair, a shelf and a partition with a door show their front
   }
 }
 
-TEST_CASE("intake: boxes on and against each other show their fronts, whichever way they were wound") {
+TEST_CASE("intake: boxes on and against each other show their fronts, whichever way they were wound", "[accuracy]") {
   const unsigned seed = test::seed();
   constexpr int rounds = 12;
   for (const Case& c : damages()) {

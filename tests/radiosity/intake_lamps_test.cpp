@@ -62,7 +62,7 @@ TEST_CASE("intake: a lamp that lies flush in a ceiling shines into the room", "[
   }
 }
 
-TEST_CASE("intake: a lamp that hangs close under a ceiling shines into the room, whichever way up it was given") {
+TEST_CASE("intake: a lamp that hangs close under a ceiling shines into the room, whichever way up it was given", "[accuracy]") {
   const unsigned seed = test::seed();
   INFO("seed " << seed);
   RandomRooms random(seed);

@@ -17,7 +17,7 @@
 #include "solved.hpp"
 
 TEST_CASE("a lamp of many faces within a tube sends through its ends what the tube does not get, also into a room that is not closed",
-          "[lamps]") {
+          "[lamps][accuracy]") {
   const auto seed = test::seed();
   INFO("seed " << seed);
   std::mt19937 random{seed};

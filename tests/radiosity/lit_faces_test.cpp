@@ -35,7 +35,7 @@ std::uint64_t leaves(std::vector<radiosity::SceneObject> objects, double emissio
 
 }  // namespace
 
-TEST_CASE("in a room that shines a small thing that shines a little less costs no more than one that shines as much") {
+TEST_CASE("in a room that shines a small thing that shines a little less costs no more than one that shines as much", "[accuracy]") {
   for (const double side : {0.3, 0.1, 0.03}) {
     const auto with = [&](double emission) {
       return leaves({scenes::object("room", scenes::box({0, 0, 0}, {3, 4, 2}), 0, true),

@@ -62,7 +62,7 @@ double below(const radiosity::Scene& scene) {
 
 }  // namespace
 
-TEST_CASE("soft shadows: of a ball or a tube behind a straight edge a point sees what geometry says, without bias", "[lamps]") {
+TEST_CASE("soft shadows: of a ball or a tube behind a straight edge a point sees what geometry says, without bias", "[lamps][accuracy]") {
   const auto seed = test::seed();
   INFO("seed " << seed);
   std::mt19937 random{seed};

@@ -33,7 +33,7 @@ Soup room_of_sunk_lamps() {
 
 }  // namespace
 
-TEST_CASE("lamps in clusters that reach out of a room give it as much light as one by one") {
+TEST_CASE("lamps in clusters that reach out of a room give it as much light as one by one", "[accuracy]") {
   const Soup soup = room_of_sunk_lamps();
   const radiosity::Intake taken = soup.take_in();
   const auto light_on_walls = [&](radiosity::Solver solver, radiosity::Indirect indirect) {

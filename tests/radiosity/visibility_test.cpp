@@ -76,7 +76,7 @@ double share_through(const std::vector<std::pair<double, double>>& strips, std::
 
 }  // namespace
 
-TEST_CASE("rounds of segments give the visible share on average, through narrow slits and beside thin strips, too") {
+TEST_CASE("rounds of segments give the visible share on average, through narrow slits and beside thin strips, too", "[accuracy]") {
   const unsigned seed = test::seed();
   CAPTURE(seed);
   std::mt19937_64 random{seed};

@@ -79,7 +79,7 @@ TEST_CASE("a bulb in its shade: a million links are enough, however many faces t
 }
 
 // All light comes from the clusters of the bulb, and all their links are asked about the gradient of what they send.
-TEST_CASE("a ground under a bulb of many faces: the error of its leaves is as the links tell", "[lamps]") {
+TEST_CASE("a ground under a bulb of many faces: the error of its leaves is as the links tell", "[lamps][accuracy]") {
   const std::uint32_t seed = test::seed();
   radiosity::Random random{seed, 1};
   for (int turn = 0; turn < 3; ++turn) {

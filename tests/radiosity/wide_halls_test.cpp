@@ -80,7 +80,7 @@ TEST_CASE("lit spots: the light of a spot is not spread over the large leaves be
 
 // Before the light is known its faces are cut into parts of no less than 4 min_area, 10 : 1 at most here. Longer corridors have longer
 // parts, and so have all leaves of these: 7 % is found at a length of 10 000, 14 % at 40 000.
-TEST_CASE("lit spots: the error of a long corridor, up to 3000 times its width, is about that of a room") {
+TEST_CASE("lit spots: the error of a long corridor, up to 3000 times its width, is about that of a room", "[accuracy]") {
   const std::uint64_t seed = test::seed();
   CAPTURE(seed);
   radiosity::Random random{seed, 1};
