@@ -4,9 +4,8 @@
 // The single-precision form of a scene for the fast code: shapes in arrays by kind, and a tree whose nodes have eight children.
 //
 // Objects far away from all others are not in it (far_objects.hpp). Coordinates are relative to the middle of the rest, the scene in what
-// follows, and scaled by a power of two, so that it lies in [-1,1]^3; nothing below
-// depends on the size or position of the scene. Segments may extend slightly beyond it (to |x| <= 1.5; longer ones are clipped,
-// bundle.hpp).
+// follows, and scaled by a power of two, so that it lies in [-1,1]^3; nothing below depends on the size or position of the scene. Segments
+// may extend slightly beyond it (to |x| <= 1.5; longer ones are clipped, bundle.hpp).
 //
 // The error bound: `margin` = eps_height (tolerances.hpp) plus the skins of scene.hpp. A decision whose distance from its limit exceeds
 // the margin is the same as in double precision; the others are left to double precision.
