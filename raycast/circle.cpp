@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <raycast/circle.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -46,6 +47,12 @@ HALFLIGHT_INLINE int circle_points(double error) {
   int n = 8;
   while (n < most && 1.0 - std::cos(std::numbers::pi / n) > error) { n += 4; }
   return n;
+}
+
+HALFLIGHT_INLINE int rows_along(double length, double width, double radius, double tolerance) {
+  const double size = std::hypot(length, 2.0 * std::numbers::sqrt2 * radius);
+  const double of_sphere = std::sqrt(4.0 * std::numbers::inv_sqrt3 * size * tolerance);
+  return static_cast<int>(std::clamp(std::round(length / std::max(width, of_sphere)), 1.0, 64.0));
 }
 
 }  // namespace raycast

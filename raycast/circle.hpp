@@ -55,6 +55,11 @@ struct AxisFrame {
 // The smallest multiple of 4, between 8 and 1024, of points on a unit circle for which the chords are off by at most `error`.
 [[nodiscard]] int circle_points(double error);
 
+// The number of rows in which facets of this width lie along the straight side of a round object, between 1 and 64: they are about as long
+// as wide. But along a thin pole, whose sides are flat for the tolerance, they are no shorter than those of a sphere of the same size: a
+// facet of the width w on a sphere of radius r departs from it by w^2 / 8r, and the size, the diagonal of its bounds, is 2 sqrt(3) r.
+[[nodiscard]] int rows_along(double length, double width, double radius, double tolerance);
+
 }  // namespace raycast
 
 #ifdef HALFLIGHT_HEADER_ONLY

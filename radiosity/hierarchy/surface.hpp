@@ -62,7 +62,9 @@ struct SurfaceResult {
   std::string fault;
 };
 
-[[nodiscard]] SurfaceResult make_surface(const raycast::PlacedObject& object, std::uint32_t first_surface);
+// Refinement continues from the faces of this approximation. Those of a small curved object are fewer if they would be smaller than
+// `least_facet` (a length) otherwise.
+[[nodiscard]] SurfaceResult make_surface(const raycast::PlacedObject& object, std::uint32_t first_surface, double least_facet = 0.0);
 
 // Corner positions of a face, beginning with corner 0, without T-vertices.
 [[nodiscard]] Polygon corner_polygon(const SurfaceBRep& brep, brep::FaceId f);

@@ -168,10 +168,11 @@ HALFLIGHT_INLINE std::vector<std::uint32_t> ray_counts(const DiscreteScene& scen
   const double of_many = std::clamp(most_by_least / static_cast<double>(casters.size()), 0.25 * least_each, least_each);
   const double least = scene.control.viewpoint ? of_many : least_each;
   // With a camera, slivers in view may have hundreds of times the weight of others. The total is limited to the number that equal weights
-  // would give.
+  // would give; beyond `few` to the geometric mean of both, because a picture averages over what its points see, the more the more nodes.
   constexpr double few = 0x1p22;
   const double wished = mean * weighted * weighted / all, even = mean * static_cast<double>(casters.size());
-  if (scene.control.viewpoint && wished > std::max(few, even)) { mean *= std::max(few, even) / wished; }
+  const double most = std::max(few, std::sqrt(few * even));
+  if (scene.control.viewpoint && wished > most) { mean *= most / wished; }
   std::vector<std::uint32_t> counts(scene.hierarchy.size(), 0);
   for (const Caster& caster : casters) {
     if (!(area[caster.node] > 0.0)) { continue; }

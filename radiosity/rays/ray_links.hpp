@@ -53,7 +53,7 @@ struct RayLinks {
 
 // Numbers of rays per node: `mean` if all casters had equal size and weight 1; otherwise proportional to weight and square root of the
 // area, which minimizes the L2 error. Lamps do not cast, because their light has links of its own. If weights are those of a camera's
-// picture, the total is limited to `mean` per caster, or four million if that is more.
+// picture, the total is limited to four million, or its geometric mean with `mean` per caster if that is more.
 [[nodiscard]] std::vector<std::uint32_t> ray_counts(const DiscreteScene& scene, const std::vector<Caster>& casters, double mean);
 
 // Rays per node for which noise decreases along with the other errors of F-refinement: measured on rooms of 19 to 10 000 input faces.

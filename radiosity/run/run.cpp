@@ -37,7 +37,7 @@ HALFLIGHT_INLINE std::optional<Failure> Run::prepare_scene() {
   MemoryBudget::Counts least;
   for (const SceneObject& object : scene.input.objects) { least.nodes += object.shape ? object.shape->sheet_count() : 0; }
   if (!scene.budget.allows(least)) { return Failure{Failure::Kind::out_of_memory, {too_large(*this, scene.budget.peak(least))}}; }
-  PrepareResult preparation = prepare(scene.input, options.shortcuts);
+  PrepareResult preparation = prepare(scene.input, options.shortcuts, options.min_area);
   if (!preparation.prepared) { return Failure{Failure::Kind::invalid_scene, std::move(preparation.faults)}; }
   scene.take(std::move(*preparation.prepared));
   if (options.caster) { scene.objects.ask(options.caster(scene.objects, scene.frame)); }

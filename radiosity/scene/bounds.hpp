@@ -88,6 +88,10 @@ namespace radiosity {
   return bounds;
 }
 
+[[nodiscard]] inline bool shines(const Scene& scene, const SceneObject& object) {
+  return std::any_of(object.material.begin(), object.material.end(), [&](auto m) { return !is_black(scene.materials[m].emission); });
+}
+
 [[nodiscard]] inline bool shines_all_over(const Scene& scene, const SceneObject& object) {
   return std::all_of(object.material.begin(), object.material.end(), [&](auto m) { return !is_black(scene.materials[m].emission); });
 }

@@ -77,7 +77,7 @@ HALFLIGHT_INLINE void Cone::approximate(double tolerance, brep::Builder& out) co
   const double largest = std::max(radius_, top_radius_);
   const int n = circle_points(tolerance / largest);
   const double width = (radius_ + top_radius_) * std::sin(std::numbers::pi / n);
-  const int m = static_cast<int>(std::clamp(std::round(std::hypot(height_, radius_ - top_radius_) / width), 1.0, 64.0));
+  const int m = rows_along(std::hypot(height_, radius_ - top_radius_), width, largest, tolerance);
   std::vector<std::uint32_t> ring;  // row by row, counter-clockwise about the axis; an apex is one vertex
   for (int row = 0; row <= m; ++row) {
     const double r = row == m ? top_radius_ : radius_ + (top_radius_ - radius_) * row / m;

@@ -75,7 +75,7 @@ HALFLIGHT_INLINE SurfacePoint Cylinder::project(std::uint32_t sheet, const glm::
 HALFLIGHT_INLINE void Cylinder::approximate(double tolerance, brep::Builder& out) const {
   const int n = circle_points(tolerance / radius_);
   const double width = 2 * radius_ * std::sin(std::numbers::pi / n);
-  const int m = static_cast<int>(std::clamp(std::round(height_ / width), 1.0, 64.0));
+  const int m = rows_along(height_, width, radius_, tolerance);
   std::vector<std::uint32_t> ring;  // row by row, counter-clockwise about the axis
   for (int row = 0; row <= m; ++row) {
     for (int i = 0; i < n; ++i) {

@@ -171,6 +171,15 @@ TEST_CASE("what one camera makes important shares some millions of rays, however
   for (radiosity::Caster& caster : casters) { caster.weight = 1e4; }
   const std::vector<std::uint32_t> counts = radiosity::ray_counts(*discrete, casters, 64.0);
   CHECK(std::accumulate(counts.begin(), counts.end(), 0.0) == test::Approx(1u << 22).epsilon(1e-5));  // rounded
+  // Where nodes are so many that equal shares would be more, it is the geometric mean of both.
+  for (std::uint32_t i = 0; discrete->hierarchy.size() < 70'000; ++i) {
+    if (discrete->hierarchy[i].leaf()) { REQUIRE(radiosity::subdivide(discrete->surfaces, discrete->hierarchy, i, discrete->meshing)); }
+  }
+  discrete->expose();
+  casters = casters_of(*discrete);
+  const double equal = 512.0 * static_cast<double>(casters.size());
+  const std::vector<std::uint32_t> of_many = radiosity::ray_counts(*discrete, casters, 512.0);
+  CHECK(std::accumulate(of_many.begin(), of_many.end(), 0.0) == test::Approx(std::sqrt(0x1p22 * equal)).epsilon(0.01));
 }
 
 TEST_CASE("nodes that matter little cast 32 rays each, very many of them for a picture a million in all, but 8 each") {

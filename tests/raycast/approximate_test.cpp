@@ -153,6 +153,27 @@ TEST_CASE("a cylinder is cut in a multiple of four columns, its caps are single 
   }
 }
 
+TEST_CASE("facets along a pole are as many as along half a turn of a sphere of its size, or fewer, however thin the pole is") {
+  Random random;
+  for (int trial = 0; trial < 200; ++trial) {
+    const double radius = std::pow(10.0, random.uniform(-6, 6)), length = radius * std::pow(10.0, random.uniform(0, 4));
+    const double size = std::hypot(length, std::sqrt(8.0) * radius), tolerance = size * std::pow(10.0, random.uniform(-3, -1));
+    const bool cone = trial % 2 == 0;
+    brep::Builder pole, ball;
+    if (cone) {
+      Cone::make({0, 0, 0}, {0, 0, length}, radius, 0.5 * radius)->approximate(tolerance, pole);
+    } else {
+      Cylinder::make({0, 0, 0}, {0, 0, length}, radius)->approximate(tolerance, pole);
+    }
+    Sphere::make({0, 0, 0}, size / std::sqrt(12.0))->approximate(tolerance, ball);
+    const double columns = static_cast<double>(pole.corners(pole.face_count() - 1).size());  // the last face is a cap
+    const double rows = (pole.face_count() - 2) / columns, half_turn = 2.0 * std::sqrt(ball.face_count() / 6.0);
+    CAPTURE(cone, length / radius, tolerance / size);
+    CHECK(rows <= half_turn);
+    CHECK(rows <= std::max(1.0, length / (2.0 * radius) * columns));  // and no wider than they are long, within a factor of 2
+  }
+}
+
 TEST_CASE("a sphere is cut in 6 n^2 quadrilaterals that share their vertices, symmetric to the last bit") {
   for (const double tolerance : {10.0, 0.1, 0.01, 1e-3}) {
     brep::Builder builder;
