@@ -6,8 +6,6 @@
 #include <cmath>
 #include <cstdint>
 #include <memory>
-#include <numeric>
-#include <optional>
 #include <random>
 #include <utility>
 #include <vector>
@@ -37,19 +35,13 @@
 using radiosity::DiscreteScene;
 using radiosity::Indirect;
 using radiosity::Options;
+using roots::casters_of;
 using roots::closed_room;
 using roots::leaves_of;
 using roots::roots_of;
 using roots::split_at_random;
 
 namespace {
-
-// All leaves cast, as if they saw the same light.
-std::vector<radiosity::Caster> casters_of(const DiscreteScene& scene) {
-  std::vector<radiosity::Caster> casters;
-  for (const std::uint32_t i : leaves_of(scene)) { casters.push_back({i, 1.0}); }
-  return casters;
-}
 
 radiosity::RayLinks links_of(DiscreteScene& scene, const std::vector<std::uint32_t>& counts) {
   scene.expose();
@@ -161,44 +153,6 @@ TEST_CASE("rooms by stored rays: closed rows, no energy lost, and the radiositie
     }
     CHECK(std::abs(sum_rays / sum_links - 1.0) < 0.02);
   }
-}
-
-TEST_CASE("what one camera makes important shares some millions of rays, however much it weighs") {
-  const auto discrete = roots_of(closed_room({}), 1, 1);
-  discrete->expose();
-  discrete->control.viewpoint = radiosity::Viewpoint{};
-  std::vector<radiosity::Caster> casters = casters_of(*discrete);
-  for (radiosity::Caster& caster : casters) { caster.weight = 1e4; }
-  const std::vector<std::uint32_t> counts = radiosity::ray_counts(*discrete, casters, 64.0);
-  CHECK(std::accumulate(counts.begin(), counts.end(), 0.0) == test::Approx(1u << 22).epsilon(1e-5));  // rounded
-  // Where nodes are so many that equal shares would be more, it is the geometric mean of both.
-  for (std::uint32_t i = 0; discrete->hierarchy.size() < 70'000; ++i) {
-    if (discrete->hierarchy[i].leaf()) { REQUIRE(radiosity::subdivide(discrete->surfaces, discrete->hierarchy, i, discrete->meshing)); }
-  }
-  discrete->expose();
-  casters = casters_of(*discrete);
-  const double equal = 512.0 * static_cast<double>(casters.size());
-  const std::vector<std::uint32_t> of_many = radiosity::ray_counts(*discrete, casters, 512.0);
-  CHECK(std::accumulate(of_many.begin(), of_many.end(), 0.0) == test::Approx(std::sqrt(0x1p22 * equal)).epsilon(0.01));
-}
-
-TEST_CASE("nodes that matter little cast 32 rays each, very many of them for a picture a million in all, but 8 each") {
-  const auto discrete = roots_of(closed_room({}), 1, 1);
-  const auto cast_by_each = [&](std::size_t nodes, bool picture) {
-    for (std::uint32_t i = 0; discrete->hierarchy.size() < nodes; ++i) {
-      if (discrete->hierarchy[i].leaf()) { REQUIRE(radiosity::subdivide(discrete->surfaces, discrete->hierarchy, i, discrete->meshing)); }
-    }
-    discrete->expose();
-    discrete->control.viewpoint = picture ? std::optional{radiosity::Viewpoint{}} : std::nullopt;
-    std::vector<radiosity::Caster> casters = casters_of(*discrete);
-    for (radiosity::Caster& caster : casters) { caster.weight = 1e-9; }
-    const std::vector<std::uint32_t> counts = radiosity::ray_counts(*discrete, casters, 64.0);
-    return *std::max_element(counts.begin(), counts.end());
-  };
-  CHECK(cast_by_each(1000, true) == 32);
-  CHECK(cast_by_each(70'000, false) == 32);
-  CHECK(cast_by_each(70'000, true) * casters_of(*discrete).size() < 1.05 * 0x1p20);  // each rounded, by a thirtieth: 32 would be twice that
-  CHECK(cast_by_each(220'000, true) == 8);
 }
 
 TEST_CASE("the noise of rays is what they tell: solutions by other rays differ by it") {

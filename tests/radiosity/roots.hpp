@@ -12,6 +12,7 @@
 
 #include <radiosity/hierarchy/meshing.hpp>
 #include <radiosity/hierarchy/surface.hpp>
+#include <radiosity/rays/senders.hpp>
 #include <radiosity/refinement/discrete_scene.hpp>
 #include <radiosity/scene/scene.hpp>
 #include <radiosity/visibility/prepare.hpp>
@@ -60,6 +61,13 @@ inline std::vector<std::uint32_t> leaves_of(const radiosity::DiscreteScene& scen
     if (scene.hierarchy[i].leaf()) { leaves.push_back(i); }
   }
   return leaves;
+}
+
+// All leaves cast, as if they saw the same light.
+inline std::vector<radiosity::Caster> casters_of(const radiosity::DiscreteScene& scene) {
+  std::vector<radiosity::Caster> casters;
+  for (const std::uint32_t i : leaves_of(scene)) { casters.push_back({i, 1.0}); }
+  return casters;
 }
 
 }  // namespace roots
