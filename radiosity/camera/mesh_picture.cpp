@@ -316,8 +316,8 @@ HALFLIGHT_INLINE double automatic_exposure(const Mesh& mesh, const Scene& scene,
       if (is_black(material.reflectance)) { continue; }
       const Color radiosity = raster::color_at(triangle, band.ray(x, y));
       const double value = luminance(radiosity - material.emission);
-      // B - E of a lamp is mostly rounding; and the light that a lamp reflects does not tell how bright the scene is.
-      if (value > 1e-9 * luminance(radiosity) && is_black(material.emission)) { reflected.push_back(value); }
+      // The light that a lamp reflects does not tell how bright the scene is. But what glows less than it is lit is no lamp.
+      if (value > luminance(material.emission)) { reflected.push_back(luminance(radiosity)); }
     }
   }
   if (reflected.empty()) { return emitted > 0.0 ? std::numbers::pi / emitted : 1.0; }

@@ -244,6 +244,22 @@ TEST_CASE("automatic exposure shows the 98th percentile of what is seen as 0.8, 
   }
 }
 
+TEST_CASE("automatic exposure takes what glows less than it is lit as a surface, and what glows more as a lamp") {
+  radiosity::Scene scene = scene_of({sphere({0, 0, 0}, 1.0, wall), sphere({9, 0, 0}, 1.0, lamp)});
+  scene.materials[lamp].reflectance = Color(0.5);
+  const Color emission = scene.materials[lamp].emission;
+  const auto exposure = [&](double reflected) {  // by what glows, relative to what it emits; beside it is a wall of the same light
+    radiosity::Mesh mesh;
+    add_rectangle(mesh, {-1.0, -1.0}, {0.0, 1.0}, emission, 0);
+    add_rectangle(mesh, {0.0, -1.0}, {1.0, 1.0}, (1.0 + reflected) * emission, 1);
+    return radiosity::automatic_exposure(mesh, scene, view(100));
+  };
+  const double by_wall = 0.8 * pi / radiosity::luminance(emission);
+  CHECK(exposure(0.9) == test::Approx(by_wall));
+  CHECK(exposure(1.1) == test::Approx(by_wall / 2.1));
+  CHECK(exposure(30.0) == test::Approx(by_wall / 31.0));
+}
+
 TEST_CASE("tones rise with light, from 0 to 1, filmic below linear where it is bright") {
   for (const radiosity::ToneCurve curve : {radiosity::ToneCurve::linear, radiosity::ToneCurve::filmic}) {
     const radiosity::Tone tone{2.0, curve};

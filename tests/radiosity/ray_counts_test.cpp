@@ -59,6 +59,7 @@ TEST_CASE("nodes that matter little cast 32 rays each, very many of them for a p
   };
   CHECK(cast_by_each(1000, true) == 32);
   CHECK(cast_by_each(70'000, false) == 32);
-  CHECK(cast_by_each(70'000, true) * static_cast<double>(casters_of(*discrete).size()) < 1.05 * 0x1p20);  // each rounded, by a thirtieth: 32 would be twice that
+  // Each is rounded, by a thirtieth; 32 would be twice the million.
+  CHECK(cast_by_each(70'000, true) * static_cast<double>(casters_of(*discrete).size()) < 1.05 * 0x1p20);
   CHECK(cast_by_each(220'000, true) == 8);
 }
