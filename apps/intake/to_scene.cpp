@@ -199,8 +199,9 @@ class SceneMaker {
       if (light.kind != ModelLight::Kind::sun) { options.eyes.push_back(light.position); }
     }
     for (const radiosity::SceneObject& object : model_.objects) {
-      const bool shines = shines_by(object);
-      if (shines && !object.placement.inside) { options.lamps.push_back(radiosity::placed_sides(*object.shape, object.placement)); }
+      if (radiosity::shines(file_.scene, object) && !object.placement.inside) {
+        options.lamps.push_back(radiosity::placed_sides(*object.shape, object.placement));
+      }
     }
     radiosity::Intake intake = radiosity::take_in(panes_.others(model_, two_sided_), file_.scene.materials, options);
     panes_.renumber(intake);
@@ -234,12 +235,9 @@ class SceneMaker {
     }
   }
 
-  [[nodiscard]] bool shines_by(const radiosity::SceneObject& object) const {
-    return std::any_of(object.material.begin(), object.material.end(),
-                       [&](std::uint32_t m) { return !radiosity::is_black(file_.scene.materials[m].emission); });
-  }
   [[nodiscard]] bool shines() const {
-    return std::any_of(file_.scene.objects.begin(), file_.scene.objects.end(), [&](const auto& object) { return shines_by(object); });
+    return std::any_of(file_.scene.objects.begin(), file_.scene.objects.end(),
+                       [&](const auto& object) { return radiosity::shines(file_.scene, object); });
   }
 
   Model model_;
