@@ -70,7 +70,8 @@ TEST_CASE("memory limit of F-refinement: the best that fits, finer with more mem
     std::vector<std::uint64_t> all = limits();
     all.push_back(10'000);     // less than its patches take
     all.push_back(1'090'000);  // where tables of few rows once took .4 % more
-    for (int i = 0; i < 20; ++i) { all.push_back(of_scene / 2 + random() % (3 * whole.peak)); }
+    for (int i = 0; i < 10; ++i) { all.push_back(of_scene / 2 + random() % (3 * whole.peak)); }
+    for (int i = 0; i < 16; ++i) { all.push_back(of_scene + random() % (2 * whole.peak - of_scene)); }  // where it is coarsened
     std::sort(all.begin(), all.end());
     bool refused = false, coarsened = false;
     double epsilon = 2.0;
