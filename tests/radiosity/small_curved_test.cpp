@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Curved things that are small beside the patches of the scene have few facets, so that hundreds of them, such as castors and knobs, do
 // not decide about the time; large ones and lamps are as fine as before.
-#include <cmath>
+#include <algorithm>
 #include <cstddef>
 #include <numbers>
-#include <vector>
 
 #include <raycast/objects/box.hpp>
-#include <raycast/objects/cylinder.hpp>
 #include <raycast/objects/sphere.hpp>
 
 #include <radiosity/hierarchy/surface.hpp>
@@ -89,9 +87,9 @@ TEST_CASE("small curved things: balls of few facets have their true area, and da
     light[0] += coarse.audit.surfaces[k].area * coarse.audit.surfaces[k].radiosity.x;
     light[1] += fine.audit.surfaces[k].area * fine.audit.surfaces[k].radiosity.x;
   }
-  CHECK(area == test::Approx(across * across * 4.0 * std::numbers::pi * radius * radius).epsilon(0.02));
-  CHECK(light[0] == test::Approx(light[1]).epsilon(0.05));
+  CHECK(area == test::Approx(across * across * 4.0 * std::numbers::pi * radius * radius).epsilon(0.002));  // found: .07 % less
+  CHECK(light[0] == test::Approx(light[1]).epsilon(0.01));  // found with five seeds: within .4 %
   CHECK(coarse.hierarchy.size() < fine.hierarchy.size() / 2);
   const Color floors[2] = {coarse.audit.surfaces[4].radiosity, fine.audit.surfaces[4].radiosity};
-  CHECK(floors[0].x == test::Approx(floors[1].x).epsilon(0.02));
+  CHECK(floors[0].x == test::Approx(floors[1].x).epsilon(0.005));  // within .15 %
 }

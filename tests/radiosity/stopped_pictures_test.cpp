@@ -38,7 +38,7 @@ namespace {
 // Counts the lines that are intersected with it, and sets a flag at one of them.
 class CountingBall final : public raycast::Object {
  public:
-  CountingBall(const glm::dvec3& centre, double radius) : ball_(raycast::Sphere::make(centre, radius).object) {}
+  CountingBall(const glm::dvec3& centre, double r) : ball_(raycast::Sphere::make(centre, r).object) {}
   [[nodiscard]] raycast::Box bounds() const override { return ball_->bounds(); }
   void spans(const raycast::Segment& line, raycast::Spans& out) const override {
     if (++asked_ == stop_at_) { stop_ = true; }
