@@ -144,7 +144,7 @@ bool AddedLight::light_model(std::vector<std::string>& faults) {
   if (!closed.empty()) { return add_room_lamps(closed) || refused(faults); }
   std::vector<raycast::Box> rooms = rooms_of_cameras();
   if (file_.cameras.empty()) {
-    if (const auto hidden = OpenRooms(file_.scene).hidden()) { rooms.push_back(*hidden); }
+    if (const auto hidden = OpenRooms(file_.scene).hidden()) { rooms.push_back(hidden->bounds); }
   }
   if (!add_room_lamps(rooms)) {
     add_studio();

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <vector>
 
 #include <raycast/ray.hpp>
 
@@ -24,7 +25,13 @@ OpenRooms::OpenRooms(const radiosity::Scene& scene) : scene_(scene), objects_(ra
 OpenRooms::Around OpenRooms::look_around(const glm::dvec3& eye) const {
   constexpr int directions = 512;
   const double golden_angle = std::numbers::pi * (3.0 - std::sqrt(5.0));  // directions of a spiral (Vogel 1979) cover the sphere evenly
+  constexpr double overhead = 0.7;  // within 45 degrees of straight up
+  struct Back {
+    std::uint32_t object, sheet;
+    double z;  // of the direction
+  };
   Around around;
+  std::vector<Back> backs;
   for (int i = 0; i < directions; ++i) {
     const double z = 1.0 - 2.0 * (i + 0.5) / directions, aside = std::sqrt(1.0 - z * z), angle = golden_angle * i;
     const glm::dvec3 direction{aside * std::cos(angle), aside * std::sin(angle), z};
@@ -34,11 +41,26 @@ OpenRooms::Around OpenRooms::look_around(const glm::dvec3& eye) const {
       continue;
     }
     around.bounds.extend(eye + hit->t * direction);
-    around.fronts += hit->front ? 1.0 / directions : 0.0;
     around.surfaces.emplace(hit->object, hit->sheet);
+    if (hit->front) {
+      around.shown += 1.0 / directions;
+    } else if (z > 0.0 && !objects_.object(hit->object).solid()) {
+      backs.push_back({hit->object, hit->sheet, z});
+    }
+  }
+  std::set<std::uint32_t> roofs;
+  for (const Back& back : backs) {
+    if (back.z > overhead) { roofs.insert(back.object); }
+  }
+  for (const Back& back : backs) {
+    if (!roofs.contains(back.object)) { continue; }
+    around.shown += 1.0 / directions;
+    around.roof.emplace(back.object, back.sheet);
   }
   return around;
 }
+
+OpenRooms::Surfaces OpenRooms::roof_over(const glm::dvec3& eye) const { return around(eye) ? look_around(eye).roof : Surfaces(); }
 
 std::optional<raycast::Box> OpenRooms::around(const glm::dvec3& eye) const {
   Around here = look_around(eye);
@@ -47,7 +69,7 @@ std::optional<raycast::Box> OpenRooms::around(const glm::dvec3& eye) const {
   return here.bounds;
 }
 
-std::optional<raycast::Box> OpenRooms::hidden() const {
+std::optional<OpenRooms::Hidden> OpenRooms::hidden() const {
   constexpr std::size_t times = 3;
   constexpr double most_backs = 0.02;
   constexpr double least_height = 0.2;  // of the ceiling above the eye, of the model's height: not the next floor of a house, or a shelf
@@ -62,7 +84,7 @@ std::optional<raycast::Box> OpenRooms::hidden() const {
     outside = std::max(outside, seen.size());
   }
   const raycast::Box bounds = radiosity::bounds_without_strays(scene_);
-  std::optional<raycast::Box> room;
+  std::optional<Hidden> room;
   std::size_t most = times * outside;
   constexpr int across = 7;
   for (int i = 0; i < across * across; ++i) {
@@ -70,9 +92,9 @@ std::optional<raycast::Box> OpenRooms::hidden() const {
     const auto ceiling = objects_.closest({eye, {0, 0, 1}}), floor = objects_.closest({eye, {0, 0, -1}});
     if (!ceiling || ceiling->t < least_height * bounds.size().z || !floor) { continue; }
     const Around inside = look_around(eye);
-    if (inside.open > most_open || 1.0 - inside.open - inside.fronts > most_backs || inside.surfaces.size() < most) { continue; }
+    if (inside.open > most_open || 1.0 - inside.open - inside.shown > most_backs || inside.surfaces.size() < most) { continue; }
     most = inside.surfaces.size() + 1;
-    room = inside.bounds;
+    room = {eye, inside.bounds};
   }
   return room;
 }

@@ -26,16 +26,23 @@ class OpenRooms {
   [[nodiscard]] std::optional<raycast::Box> around(const glm::dvec3& eye) const;
 
   // The bounds of a room that nobody sees from outside: from a place in it, at least three times as many surfaces are seen as from any side
-  // outside, nearly all of them from the front. A box with furniture is one; a house that has more to show outside is not.
-  [[nodiscard]] std::optional<raycast::Box> hidden() const;
+  // outside, nearly all of them from the front, but for a roof. A box with furniture is one; a house that has more to show outside is not.
+  struct Hidden {
+    glm::dvec3 eye{0.0};
+    raycast::Box bounds;
+  };
+  [[nodiscard]] std::optional<Hidden> hidden() const;
+
+  using Surfaces = std::set<std::pair<std::uint32_t, std::uint32_t>>;  // object and sheet
+  // The open surfaces of a roof over the room around this point, if it shows its back there, as a roof that was given from outside alone.
+  [[nodiscard]] Surfaces roof_over(const glm::dvec3& eye) const;
 
  private:
-  using Surfaces = std::set<std::pair<std::uint32_t, std::uint32_t>>;  // object and sheet
-  // What is seen in many directions: its bounds, and the shares of directions that meet nothing, and fronts.
+  // What is seen in many directions: its bounds, and the shares of directions that meet nothing, and fronts or the backs of a roof.
   struct Around {
     raycast::Box bounds;
-    double open = 0.0, fronts = 0.0;
-    Surfaces surfaces;
+    double open = 0.0, shown = 0.0;
+    Surfaces surfaces, roof;
   };
   [[nodiscard]] Around look_around(const glm::dvec3& eye) const;
 

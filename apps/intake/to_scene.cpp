@@ -2,8 +2,10 @@
 #include "apps/intake/to_scene.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <memory>
+#include <span>
 
 #include <glm/mat3x3.hpp>
 
@@ -18,6 +20,7 @@
 #include "apps/intake/added_light.hpp"
 #include "apps/intake/camera_up.hpp"
 #include "apps/intake/light_lamps.hpp"
+#include "apps/intake/open_rooms.hpp"
 #include "apps/intake/panes.hpp"
 #include "apps/text.hpp"
 #include "apps/words.hpp"
@@ -35,6 +38,10 @@ glm::dmat3 to_metres(UpAxis up, double metres) {
 
 // A solid that is smaller than this, relative to the model, is lost in rounding beside it.
 constexpr double least_size = 1e-11;
+
+bool has_lamp(const radiosity::Scene& scene) {
+  return std::ranges::any_of(scene.objects, [&](const auto& object) { return radiosity::shines(scene, object); });
+}
 
 class SceneMaker {
  public:
@@ -63,6 +70,7 @@ class SceneMaker {
   std::optional<SceneFile> part_alone(const std::vector<glm::dvec3>& eyes, std::vector<std::string>& faults) {
     model_.cameras.clear();
     eyes_ = eyes;
+    whole_ = false;
     return part(faults) ? std::optional(std::move(file_)) : std::nullopt;
   }
 
@@ -203,7 +211,10 @@ class SceneMaker {
         options.lamps.push_back(radiosity::placed_sides(*object.shape, object.placement));
       }
     }
-    radiosity::Intake intake = radiosity::take_in(panes_.others(model_, two_sided_), file_.scene.materials, options);
+    const auto take = [&] { return radiosity::take_in(panes_.others(model_, two_sided_), file_.scene.materials, options); };
+    radiosity::Intake intake = take();
+    options.seen_from_behind = roofs(intake);
+    if (!options.seen_from_behind.empty()) { intake = take(); }
     panes_.renumber(intake);
     for (const radiosity::Change& change : intake.changes) {
       const bool worst = radiosity::tells_size(change);
@@ -225,6 +236,29 @@ class SceneMaker {
     file_.origins.assign(file_.scene.objects.size(), {"mesh", {}});
   }
 
+  // The polygons, as the intake counts them, of roofs that show their backs to a room: one in which a camera stands, or will stand because
+  // nobody sees it from outside.
+  [[nodiscard]] std::vector<std::uint32_t> roofs(const radiosity::Intake& intake) const {
+    if (std::ranges::all_of(intake.objects, [](const auto& object) { return object.shape->solid(); })) { return {}; }
+    radiosity::Scene scene{.materials = file_.scene.materials, .objects = intake.objects};
+    std::ranges::copy_if(model_.objects, std::back_inserter(scene.objects), [&](const auto& object) { return !panes_.has(object); });
+    const OpenRooms rooms(scene);
+    std::vector<glm::dvec3> eyes = eyes_;
+    for (const radiosity::Camera& camera : file_.cameras) { eyes.push_back(camera.eye); }
+    if (eyes.empty() && whole_ && model_.lights.empty() && !has_lamp(scene)) {
+      if (const auto hidden = rooms.hidden()) { eyes.push_back(hidden->eye); }
+    }
+    OpenRooms::Surfaces roof;
+    constexpr std::size_t most_eyes = 64;
+    for (const glm::dvec3& eye : std::span(eyes).first(std::min(most_eyes, eyes.size()))) { roof.merge(rooms.roof_over(eye)); }
+    std::vector<std::uint32_t> polygons;
+    for (std::uint32_t p = 0; !roof.empty() && p < intake.polygons; ++p) {
+      const auto of_roof = [&](const radiosity::PolygonPart& part) { return roof.contains({part.object, part.sheet}); };
+      if (std::ranges::any_of(intake.parts.of(p), of_roof)) { polygons.push_back(p); }
+    }
+    return polygons;
+  }
+
   // Appends numbers to names that are already used.
   void rename() {
     std::map<std::string, std::size_t> taken;
@@ -235,10 +269,7 @@ class SceneMaker {
     }
   }
 
-  [[nodiscard]] bool shines() const {
-    return std::any_of(file_.scene.objects.begin(), file_.scene.objects.end(),
-                       [&](const auto& object) { return radiosity::shines(file_.scene, object); });
-  }
+  [[nodiscard]] bool shines() const { return has_lamp(file_.scene); }
 
   Model model_;
   const ModelOptions& options_;
@@ -251,6 +282,7 @@ class SceneMaker {
   bool only_suns_ = false;      // is all light that of directional lights?
   std::vector<radiosity::Room> rooms_;
   std::vector<glm::dvec3> eyes_;  // of cameras that are not part of the model
+  bool whole_ = true;             // is the model all of the scene?
 };
 
 }  // namespace

@@ -63,6 +63,8 @@ inline constexpr std::array<Wording, static_cast<std::size_t>(ChangeKind::merged
      "# surfaces have polygons of both orientations: they reflect on both sides"},
     {"1 open surface may be seen from either side, for nothing says which: it reflects on both",
      "# open surfaces may be seen from either side, for nothing says which: they reflect on both"},
+    {"1 open surface shows its back to a room: it reflects on both sides",
+     "# open surfaces show their backs to a room: they reflect on both sides"},
     {"1 polygon became part of a coplanar neighbour", "# polygons became parts of coplanar neighbours"},
 }};
 

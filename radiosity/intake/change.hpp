@@ -38,6 +38,7 @@ enum class ChangeKind : unsigned char {
   dividing,     // polygons with light on both sides, such as walls between rooms: made to reflect on both
   both_sides,   // surfaces of mixed orientation: made to reflect on both sides
   open,         // open surfaces of which it is not known which side is seen: made to reflect on both sides
+  from_behind,  // open surfaces whose backs are seen: made to reflect on both sides
   merged        // polygons that became part of a larger one; no size
 };
 

@@ -50,6 +50,7 @@ class ObjectMaker {
     }
     shells_.find_roles();
     if (options.sides_unknown || options.open_sides_unknown) { show_both_sides(mesh, topology, options.sides_unknown, shells_); }
+    const std::vector<bool> from_behind = show_backs();
     const std::vector<bool> two_sided = faces_with_backs();
     turn_lamps(mesh, topology, materials, flush_, two_sided, options.open_sides_unknown, shells_);
     mark_decals(mesh, topology, decals_, two_sided, shells_);
@@ -61,7 +62,7 @@ class ObjectMaker {
           std::min_element(component.faces.begin(), component.faces.end(), [&](auto a, auto b) { return polygon(a) < polygon(b); });
       const bool any_back = std::any_of(component.faces.begin(), component.faces.end(), [&](std::uint32_t f) { return two_sided[f]; });
       if (component.both_sides) {
-        mesh.changed(ChangeKind::open, polygon(*first));
+        mesh.changed(from_behind[c] ? ChangeKind::from_behind : ChangeKind::open, polygon(*first));
       } else if (options.open_sides_unknown && !component.flush && !shells_.turned(c) && !any_back && shells_.shines(component)) {
         mesh.changed(ChangeKind::lamp_front, polygon(*first));
       }
@@ -167,6 +168,23 @@ class ObjectMaker {
   [[nodiscard]] bool has_back(const Face& face) const {
     return options_.two_sided || face.mixed || face.back != none ||
            (face.material < input_.two_sided.size() && input_.two_sided[face.material] != 0);
+  }
+
+  // Gives two sides to open surfaces that are seen from behind (IntakeOptions). The result: which components these are.
+  [[nodiscard]] std::vector<bool> show_backs() {
+    std::vector<std::uint32_t> seen = options_.seen_from_behind;
+    std::sort(seen.begin(), seen.end());
+    const auto is_seen = [&](std::uint32_t f) {
+      return !has_back(mesh_.faces[f]) && std::binary_search(seen.begin(), seen.end(), mesh_.faces[f].polygon);
+    };
+    std::vector<bool> from_behind(shells_.components().size(), false);
+    for (std::uint32_t c = 0; c < from_behind.size(); ++c) {
+      const Component& component = shells_.components()[c];
+      if (component.role != Role::surface || component.one_sided || component.both_sides || shells_.shines(component)) { continue; }
+      from_behind[c] = std::any_of(component.faces.begin(), component.faces.end(), is_seen);
+      if (from_behind[c]) { shells_.show_both_sides(c); }
+    }
+    return from_behind;
   }
 
   [[nodiscard]] std::vector<bool> faces_with_backs() const {

@@ -44,6 +44,9 @@ struct IntakeOptions {
   bool sides_unknown = false;
   // Points that must be seen, such as the eyes of cameras: a closed shell around one of them, or around a lamp, is a room.
   std::vector<glm::dvec3> eyes = {};
+  // Polygons whose backs are seen, such as those of a roof that was given from outside alone: open surfaces that have one get two sides,
+  // except lamps.
+  std::vector<std::uint32_t> seen_from_behind = {};
   // Lamps that are not among the polygons, such as spheres, each as six points. A closed shell around all six points is a room.
   std::vector<std::array<glm::dvec3, 6>> lamps = {};
 };

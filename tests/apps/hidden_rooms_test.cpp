@@ -3,7 +3,10 @@
 // what has more to show outside is put into a studio.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <random>
 #include <string>
 #include <utility>
@@ -17,18 +20,19 @@
 #include "apps/intake/to_scene.hpp"
 #include "catch.hpp"
 #include "houses.hpp"
+#include "models.hpp"
 #include "seed.hpp"
 
 namespace {
 
 // A room with a doorway; `inside`, `outside`: numbers of things on its floor, and beside the house.
-apps::Model house(std::mt19937& random, const glm::dvec3& room, double scale, int inside, int outside) {
+apps::Model house(std::mt19937& random, const glm::dvec3& room, double scale, int inside, int outside, bool ceiling = true) {
   std::uniform_real_distribution<double> unit(0.0, 1.0);
   apps::Model model;
   model.groups = {"house"};
   model.materials = {{"grey", radiosity::Color(0.5)}};
   const auto box = [&](const glm::dvec3& lo, const glm::dvec3& hi) { houses::add_box(model, scale * lo, scale * hi, false); };
-  houses::add_walls_with_doorway(model, room, 0.9, scale);
+  houses::add_walls_with_doorway(model, room, 0.9, scale, ceiling);
   const auto things = [&](int count, const glm::dvec3& lo, const glm::dvec3& hi) {
     const int across = 6;
     for (int i = 0; i < count; ++i) {
@@ -42,7 +46,60 @@ apps::Model house(std::mt19937& random, const glm::dvec3& room, double scale, in
   return model;
 }
 
+// Two slopes over the room, given from above alone, with a small overhang. The result: how many polygons the model had before.
+std::size_t add_gable_roof(apps::Model& model, const glm::dvec3& room, double scale, double rise) {
+  const std::size_t before = model.polygons();
+  const auto first = static_cast<std::uint32_t>(model.positions.size());
+  for (const double x : {-0.3, 0.5 * room.x, room.x + 0.3}) {
+    const double z = room.z + (x > 0.0 && x < room.x ? rise : 0.0);
+    for (const double y : {-0.3, room.y + 0.3}) { model.positions.push_back(scale * glm::dvec3(x, y, z)); }
+  }
+  model.polygon(std::vector{first, first + 2, first + 3, first + 1}, 0, 0);
+  model.polygon(std::vector{first + 2, first + 4, first + 5, first + 3}, 0, 0);
+  return before;
+}
+
 }  // namespace
+
+// A viewer sees through the back of such a roof. Without a ceiling of the thickness of a wall, light would come in, and from a camera below
+// the roof would be black.
+TEST_CASE("a roof given from above alone shows its underside to those who stand in the room below, and only then") {
+  const unsigned seed = test::seed();
+  INFO("seed " << seed);
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  enum class Eye { none, within, above };
+  for (int round = 0; round < 12; ++round) {
+    const double scale = std::exp(6.0 * unit(random) - 3.0);
+    const glm::dvec3 room = glm::dvec3(4.0 + 3.0 * unit(random), 4.0 + 3.0 * unit(random), 2.3 + unit(random));
+    const Eye eye = std::array{Eye::none, Eye::within, Eye::above}[static_cast<std::size_t>(round) % 3];
+    apps::Model model = house(random, room, scale, 36, 0, false);
+    const std::size_t roof = add_gable_roof(model, room, scale, 0.2 * unit(random) * room.z);
+    if (eye != Eye::none) {
+      const double height = eye == Eye::within ? 0.6 : 2.0;
+      const glm::dvec3 at = room * glm::dvec3(0.3 + 0.4 * unit(random), 0.3 + 0.4 * unit(random), height);
+      model.cameras.push_back({.name = "own", .eye = scale * at, .forward = glm::dvec3(0.1, 0.2, eye == Eye::above ? -1.0 : 0.0)});
+    }
+    std::vector<std::string> faults;
+    const auto file = apps::to_scene(std::move(model), apps::UpAxis::z, {}, faults);
+    REQUIRE(file);
+    CAPTURE(round, scale, room.x, room.y, room.z);
+    const bool both = eye != Eye::above;
+    CHECK(models::noted(file->notes, "shows its back to a room") == both);
+    CHECK(models::noted(file->notes, "hangs under its ceiling") == both);
+    REQUIRE(file->given);
+    for (std::size_t polygon = roof; polygon < roof + 2; ++polygon) {
+      const auto parts = file->given->parts.of(polygon);
+      CHECK(std::ranges::count_if(parts, [](const auto& part) { return !part.back; }) == 1);
+      CHECK(std::ranges::count_if(parts, [](const auto& part) { return part.back; }) == (both ? 1 : 0));
+    }
+    if (eye != Eye::none) { continue; }
+    REQUIRE_FALSE(file->cameras.empty());
+    const glm::dvec3 stands = file->cameras.front().eye / scale;
+    CHECK((stands.x > 0.0 && stands.x < room.x && stands.y > 0.0 && stands.y < room.y && stands.z < 1.2 * room.z));
+    CHECK(apps::LightViews(file->scene).lit_share(file->cameras.front()) > 0.3);
+  }
+}
 
 TEST_CASE("a furnished room without a lamp or a camera is lit, and seen from inside") {
   const unsigned seed = test::seed();

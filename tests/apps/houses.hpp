@@ -30,13 +30,14 @@ inline void add_box(apps::Model& model, const glm::dvec3& lo, const glm::dvec3& 
   }
 }
 
-// Thick walls, floor and ceiling around a room from the origin, each a box of its own; a doorway as wide as `door` in the wall y = 0.
-inline void add_walls_with_doorway(apps::Model& model, const glm::dvec3& room, double door, double scale) {
+// Thick walls, floor and perhaps a ceiling around a room from the origin, each a box of its own; a doorway as wide as `door` in the wall
+// y = 0.
+inline void add_walls_with_doorway(apps::Model& model, const glm::dvec3& room, double door, double scale, bool ceiling = true) {
   const double thick = 0.2;
   const glm::dvec3 out = room + glm::dvec3(thick);
   const auto wall = [&](const glm::dvec3& lo, const glm::dvec3& hi) { add_box(model, scale * lo, scale * hi, false); };
   wall({-thick, -thick, -thick}, {out.x, out.y, 0});
-  wall({-thick, -thick, room.z}, out);
+  if (ceiling) { wall({-thick, -thick, room.z}, out); }
   wall({-thick, -thick, 0}, {0, out.y, room.z});
   wall({room.x, -thick, 0}, {out.x, out.y, room.z});
   wall({0, room.y, 0}, {room.x, out.y, room.z});
