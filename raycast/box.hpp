@@ -73,6 +73,7 @@ class SlabTest {
     clip<1>(box, in, out);
     clip<2>(box, in, out);
     entry = in;
+    if (!(in < infinity && out > -infinity)) { return false; }  // parallel to a slab, and outside of it
     return in <= out || in - out <= eps_slab * std::min(std::abs(in), std::abs(out));
   }
 

@@ -77,6 +77,37 @@ TEST_CASE("a tree holds each item once, within its box, behind its parent, and i
   }
 }
 
+// Along an axis the exact answer needs no arithmetic: the line lies within both other slabs, and its interval meets that of the box. Of a
+// line that misses two of the three slabs, one comparison of infinite numbers said that it meets the box.
+TEST_CASE("a line along an axis meets the boxes around it, and no others") {
+  const std::uint64_t seed = test::seed();
+  CAPTURE(seed);
+  std::mt19937_64 random(seed);
+  const auto place = [&] { return static_cast<double>(random() % 9) - 4.0; };  // many equal coordinates
+  std::size_t met = 0;
+  for (int k = 0; k < 20'000; ++k) {
+    Box box;
+    box.extend({place(), place(), place()});
+    box.extend({place(), place(), place()});
+    const int axis = static_cast<int>(random() % 3);
+    raycast::Segment line{{place(), place(), place()}, glm::dvec3(random() % 2 == 0 ? 0.0 : -0.0)};
+    line.direction[axis] = random() % 2 == 0 ? 1.0 : -1.0;
+    const bool whole = random() % 2 == 0;
+    const double t0 = whole ? -raycast::infinity : place(), t1 = whole ? raycast::infinity : t0 + static_cast<double>(random() % 4);
+    bool wanted = true;
+    for (int other = 0; other < 3; ++other) {
+      if (other != axis) { wanted = wanted && line.origin[other] >= box.lo[other] && line.origin[other] <= box.hi[other]; }
+    }
+    const double a = (box.lo[axis] - line.origin[axis]) * line.direction[axis], b = (box.hi[axis] - line.origin[axis]) * line.direction[axis];
+    wanted = wanted && std::max(std::min(a, b), t0) <= std::min(std::max(a, b), t1);
+    double entry = 0.0;
+    CAPTURE(k, axis, t0, t1, box.lo.x, box.lo.y, box.lo.z, box.hi.x, box.hi.y, box.hi.z, line.origin.x, line.origin.y, line.origin.z);
+    REQUIRE(raycast::SlabTest(line)(box, t0, t1, entry) == wanted);
+    met += wanted ? 1 : 0;
+  }
+  CHECK(met > 1000);
+}
+
 TEST_CASE("a search finds what asking every box finds, whatever the tree, and stops when it is told to") {
   const std::uint64_t seed = test::seed();
   CAPTURE(seed);
