@@ -47,6 +47,10 @@ void AddedLight::look_for_light() {
     auto inside = views.inside();
     if (inside && inside->lit >= LightViews::tol_dark) { better = std::move(inside->camera); }
   }
+  if (replaced && !better) {
+    radiosity::Camera outside = radiosity::automatic_camera(file_.scene);
+    if (views.lit_share(outside) >= LightViews::tol_dark) { better = std::move(outside); }
+  }
   std::string advice;
   if (better && !eye_chosen_) {
     advice = replaced

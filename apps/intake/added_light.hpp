@@ -35,7 +35,7 @@ class AddedLight {
 
   // If the automatic view sees little of the light, adds a camera that sees more, on another side or inside a lit room. If cameras of the
   // file see almost no lit surface, adds one that sees the model in its studio, or stands inside; it is the first, which draws the
-  // picture, if none of the file sees more.
+  // picture, if none of the file sees more, and in that case the automatic view is tried, too.
   void look_for_light();
 
  private:

@@ -25,7 +25,7 @@ OpenRooms::OpenRooms(const radiosity::Scene& scene) : scene_(scene), objects_(ra
 OpenRooms::Around OpenRooms::look_around(const glm::dvec3& eye) const {
   constexpr int directions = 512;
   const double golden_angle = std::numbers::pi * (3.0 - std::sqrt(5.0));  // directions of a spiral (Vogel 1979) cover the sphere evenly
-  constexpr double overhead = 0.7;  // within 45 degrees of straight up
+  constexpr double overhead = 0.7;                                        // within 45 degrees of straight up
   struct Back {
     std::uint32_t object, sheet;
     double z;  // of the direction

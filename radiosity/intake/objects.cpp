@@ -13,6 +13,7 @@
 
 #include <glm/vec3.hpp>
 
+#include <brep/ears.hpp>
 #include <brep/inline.hpp>
 #include <brep/polygon.hpp>
 
@@ -20,6 +21,7 @@
 #include <raycast/object.hpp>
 #include <raycast/objects/mesh.hpp>
 #include <raycast/objects/polygon.hpp>
+#include <raycast/planar.hpp>
 
 #include <radiosity/intake/backs.hpp>
 #include <radiosity/intake/decals.hpp>
@@ -27,6 +29,7 @@
 #include <radiosity/intake/layers.hpp>
 #include <radiosity/intake/open_surfaces.hpp>
 #include <radiosity/intake/shells.hpp>
+#include <radiosity/intake/subset.hpp>
 
 namespace radiosity::intake {
 namespace detail {
@@ -41,13 +44,9 @@ class ObjectMaker {
         options_(options),
         flush_(lay_lamps(mesh, topology, materials)),
         decals_(lay_decals(mesh, topology, materials)),
-        shells_(mesh, topology, materials, options) {
-    local_.assign(topology.vertices, none);
+        shells_(mesh, topology, materials, options),
+        subsets_(mesh, topology) {
     layer_.assign(mesh.faces.size(), 0);
-    face_of_.resize(topology.mate.size());
-    for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) {
-      for (std::uint32_t s = topology.first[f]; s < topology.first[f + 1]; ++s) { face_of_[s] = f; }
-    }
     shells_.find_roles();
     if (options.sides_unknown || options.open_sides_unknown) { show_both_sides(mesh, topology, options.sides_unknown, shells_); }
     const std::vector<bool> from_behind = show_backs();
@@ -200,7 +199,7 @@ class ObjectMaker {
     const auto on_border = [&](std::uint32_t f) {
       for (std::uint32_t s = topology_.first[f]; s < topology_.first[f + 1]; ++s) {
         const std::uint32_t mate = topology_.mate[s];
-        if (mate == none || mesh_.faces[face_of_[mate]].group != mesh_.faces[f].group) { return true; }
+        if (mate == none || mesh_.faces[subsets_.face_of(mate)].group != mesh_.faces[f].group) { return true; }
       }
       return false;
     };
@@ -232,48 +231,59 @@ class ObjectMaker {
 
   // The faces of a room are reversed like those of a back, because its normals are those of the solid whose inside it is.
   void add(const std::vector<std::uint32_t>& faces, Role role, bool back) {
-    std::vector<glm::dvec3> positions;
-    std::vector<std::vector<std::uint32_t>> corners;
-    std::vector<std::uint32_t> material, used;
-    for (const std::uint32_t f : faces) {
-      corners.emplace_back();
-      const bool shows_back = mesh_.faces[f].back != none && back != is_turned(f);
-      material.push_back(shows_back ? mesh_.faces[f].back : mesh_.faces[f].material);
-      for (std::uint32_t s = topology_.first[f]; s < topology_.first[f + 1]; ++s) {
-        const std::uint32_t v = topology_.vertex[s];
-        if (local_[v] == none) {
-          local_[v] = static_cast<std::uint32_t>(positions.size());
-          used.push_back(v);
-          positions.push_back(mesh_.positions[mesh_.faces[f].corners[s - topology_.first[f]]]);
-        }
-        corners.back().push_back(local_[v]);
-      }
-      if ((role == Role::room) != (back != is_turned(f))) { std::reverse(corners.back().begin(), corners.back().end()); }
+    Subset subset = subsets_.of(faces);
+    for (std::size_t i = 0; i < faces.size(); ++i) {
+      if ((role == Role::room) != (back != is_turned(faces[i]))) { std::reverse(subset.corners[i].begin(), subset.corners[i].end()); }
     }
-    for (const std::uint32_t v : used) { local_[v] = none; }
     raycast::Placement placement;
     placement.inside = role == Role::room;
-    if (raycast::Made<raycast::Mesh> made = raycast::Mesh::make(positions, corners)) {
-      for (std::uint32_t sheet = 0; sheet < faces.size(); ++sheet) { came_from(faces[sheet], sheet, back); }
+    if (raycast::Made<raycast::Mesh> made = raycast::Mesh::make(subset.positions, subset.corners)) {
+      std::vector<std::uint32_t> material;
+      for (std::uint32_t sheet = 0; sheet < faces.size(); ++sheet) {
+        came_from(faces[sheet], sheet, back);
+        material.push_back(material_of(faces[sheet], back));
+      }
       if (std::all_of(material.begin(), material.end(), [&](auto m) { return m == material[0]; })) { material.resize(1); }
       objects_.push_back({{}, std::move(made.object), placement, std::move(material)});
       group_of_.push_back(group_);
       others_.push_back(other_groups(faces));
       return;
     }
-    for (std::size_t i = 0; i < corners.size(); ++i) {  // the surface could not be made: add its faces as separate polygons
-      std::vector<glm::dvec3> outline;
-      for (const std::uint32_t v : corners[i]) { outline.push_back(positions[v]); }
-      if (placement.inside) { std::reverse(outline.begin(), outline.end()); }
-      raycast::Made<raycast::Polygon> made = raycast::Polygon::make(std::move(outline));
-      const std::uint32_t polygon = mesh_.faces[faces[i]].polygon;
-      mesh_.changed(made ? ChangeKind::loose : ChangeKind::unusable, polygon);
-      if (!made) { continue; }
-      came_from(faces[i], 0, back);
-      objects_.push_back({{}, std::move(made.object), {}, {material[i]}});
+    std::vector<std::uint32_t> sound, faulty;
+    for (const std::uint32_t f : faces) { (raycast::polygon_fault(mesh_.outline(mesh_.faces[f])) ? faulty : sound).push_back(f); }
+    if (!faulty.empty() && !sound.empty()) {
+      role == Role::surface ? add_surface(std::move(sound), back) : add(sound, Role::surface, back);
+      sound.clear();
+    }
+    for (const std::vector<std::uint32_t>* const list : {&sound, &faulty}) {
+      for (const std::uint32_t f : *list) { add_loose(f, back); }
+    }
+  }
+
+  // Adds a face as an object of its own, or in triangles, if it is no valid polygon.
+  void add_loose(std::uint32_t face, bool back) {
+    const std::span<const glm::dvec3> corners = mesh_.outline(mesh_.faces[face]);
+    std::vector<glm::dvec3> outline(corners.begin(), corners.end());
+    if (back != is_turned(face)) { std::reverse(outline.begin(), outline.end()); }
+    const auto add_polygon = [&](std::vector<glm::dvec3> polygon) {
+      raycast::Made<raycast::Polygon> made = raycast::Polygon::make(std::move(polygon));
+      if (!made) { return false; }
+      came_from(face, 0, back);
+      objects_.push_back({{}, std::move(made.object), {}, {material_of(face, back)}});
       group_of_.push_back(group_);
       others_.emplace_back();
+      return true;
+    };
+    bool added = add_polygon(outline);
+    if (!added) {
+      for (const auto& [a, b, c] : brep::ears(outline)) { added = add_polygon({outline[a], outline[b], outline[c]}) || added; }
     }
+    mesh_.changed(added ? ChangeKind::loose : ChangeKind::unusable, mesh_.faces[face].polygon);
+  }
+
+  [[nodiscard]] std::uint32_t material_of(std::uint32_t face, bool back) const {
+    const Face& its = mesh_.faces[face];
+    return its.back != none && back != is_turned(face) ? its.back : its.material;
   }
 
   // Records the origin of a sheet of the object that will be added next.
@@ -288,9 +298,8 @@ class ObjectMaker {
   std::vector<FlushFace> flush_;  // found before shells are measured, because finding them moves vertices; so are decals_
   std::vector<DecalFace> decals_;
   Shells shells_;
-  std::vector<std::uint32_t> local_;    // by vertex: its number in the current object
-  std::vector<std::uint32_t> face_of_;  // by side
-  std::vector<std::uint32_t> layer_;    // by face, of those that have been added
+  Subsets subsets_;
+  std::vector<std::uint32_t> layer_;  // by face, of those that have been added
   std::vector<SceneObject> objects_;
   std::vector<std::uint32_t> group_of_;             // by object
   std::vector<std::vector<std::uint32_t>> others_;  // by object: further groups of its faces

@@ -95,6 +95,18 @@ HALFLIGHT_INLINE void solve_system(Run& run) {
   run.solution.radiosity = std::move(solved.radiosity);
 }
 
+// Lamps of a cluster that reflect and are very close to each other, as the blades of a glowing louvre, may still have row sums so large that
+// their light grows without end: no steady state. Then each of them is limited. Returns false if this changes nothing.
+HALFLIGHT_INLINE bool limit_lamps_apart(Run& run) {
+  const DiscreteScene& scene = run.scene;
+  std::vector<double>& rows = run.solution.row_sum;
+  if (!(overfull_share(scene.hierarchy, scene.exposure.area, rows) > 0.0)) { return false; }
+  run.transport->limit_row_sums(rows, most_row_sum, true);
+  rows = run.transport->row_sums();
+  run.solution.audit.row_sum = summarise_rows(scene.hierarchy, scene.exposure.area, rows);
+  return true;
+}
+
 // BF-refinement has estimated the error already; for F-refinement it is estimated now.
 HALFLIGHT_INLINE void estimate_error(Run& run) {
   const DiscreteScene& scene = run.scene;
@@ -122,6 +134,7 @@ HALFLIGHT_INLINE std::optional<Failure> solve(detail::Run& run) {
   Audit& audit = run.solution.audit;
   detail::make_transport(run);
   detail::solve_system(run);
+  if (audit.residual > run.options.residual && !run.stopped() && detail::limit_lamps_apart(run)) { detail::solve_system(run); }
   detail::estimate_error(run);
   balance_energy(audit, scene, *run.transport, run.solution.radiosity);
   if (std::string sentence = warning_of_lost_light(scene, run.solution.radiosity); !sentence.empty()) {

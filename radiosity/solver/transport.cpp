@@ -164,7 +164,7 @@ HALFLIGHT_INLINE std::vector<double> Transport::row_sums(std::size_t part) {
   return y;
 }
 
-HALFLIGHT_INLINE void Transport::limit_row_sums(std::vector<double> rows, double most) {
+HALFLIGHT_INLINE void Transport::limit_row_sums(std::vector<double> rows, double most, bool lamps_apart) {
   const auto wanted = [&](const auto& of) {
     std::vector<double> power(rows.size(), 0.0);  // 0: not to be scaled
     for (std::size_t i = 0; i < power.size(); ++i) { power[i] = rows[i] > most ? area_[i] * of(i) : 0.0; }
@@ -174,7 +174,7 @@ HALFLIGHT_INLINE void Transport::limit_row_sums(std::vector<double> rows, double
   const auto join_lamps = [&] {
     std::vector<double> power(rows.size(), 0.0), area(rows.size(), 0.0);
     for (std::size_t i = 0; i < rows.size(); ++i) {
-      if (!(*hierarchy_)[i].leaf()) { continue; }
+      if (lamps_apart || !(*hierarchy_)[i].leaf()) { continue; }
       power[counts_as(i)] += area_[i] * rows[i];
       area[counts_as(i)] += area_[i];
     }

@@ -119,8 +119,9 @@ class Transport {
   // Corrects leaves with row sums above `most`, which are impossible but occur for slivers and for leaves in gaps narrower than they are:
   // finds D, 1 at all other leaves and at most 1 at these, such that their rows sum to 1. So where they light each other, as on the two
   // sides of a gap, each takes half of what is too much. Beside a lamp the other links are scaled first, to 1 minus the row sums of the
-  // lamps: what is too much there is light from places that the lamp hides. A cluster of lamps counts as one leaf. `rows`: row_sums().
-  void limit_row_sums(std::vector<double> rows, double most);
+  // lamps: what is too much there is light from places that the lamp hides. A cluster of lamps counts as one leaf; with
+  // `lamps_apart` each of its leaves is limited, which loses some of their light. `rows`: row_sums().
+  void limit_row_sums(std::vector<double> rows, double most, bool lamps_apart = false);
 
   // Closes the nodes that lose no light: finds D such that their row sums are 1 and all others unchanged, within the tolerance (symmetric
   // scaling, van Leersum 1989; see balance.hpp), so that row errors by quadrature and sampled visibility are not amplified in the solution

@@ -176,6 +176,38 @@ TEST_CASE("the camera in a house does not depend on the order of polygons, and o
   }
 }
 
+// A block in the sun, and cameras of the file that look at its shadowed side or away from it.
+TEST_CASE("a file whose cameras see nothing lit is looked at from outside, where that shows its light") {
+  const unsigned seed = test::seed();
+  INFO("seed " << seed);
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  for (int round = 0; round < 6; ++round) {
+    apps::Model model;
+    model.groups = {"block"};
+    model.materials = {{"grey", radiosity::Color(0.5)}};
+    houses::add_box(model, {0, 0, 0}, {1.0 + unit(random), 1.0 + unit(random), 1.0 + unit(random)}, false);
+    apps::ModelLight sun;
+    sun.kind = apps::ModelLight::Kind::sun;
+    sun.intensity = radiosity::Color(1.0);
+    sun.direction = {0.1, 0.8, -1.0};
+    model.lights = {sun};
+    radiosity::Camera behind;
+    behind.name = "behind";
+    behind.eye = {1.0, 8.0 + unit(random), 0.4};
+    behind.forward = round % 2 == 0 ? glm::dvec3(0, -1, 0) : glm::dvec3(0, 1, 0);
+    model.cameras = {behind};
+    std::vector<std::string> faults;
+    const auto file = apps::to_scene(std::move(model), apps::UpAxis::z, {}, faults);
+    REQUIRE(file);
+    CAPTURE(round);
+    CHECK(noted(file->notes, "the picture is taken by another, 'automatic'"));
+    REQUIRE(file->cameras.size() == 2);
+    CHECK(file->cameras.back().name == "behind");
+    CHECK(apps::LightViews(file->scene).lit_share(file->cameras.front()) > 0.3);
+  }
+}
+
 TEST_CASE("a box with a screen sunk into its front is no room, though the file tells no sides") {
   apps::Model model;
   model.groups = {"box", "screen"};

@@ -96,6 +96,32 @@ TEST_CASE("a leaf that receives more than there is gets a row sum of 1, its neig
   check_symmetric(transport, 6, problem.hierarchy.size());
 }
 
+// Two small lamps of a cluster that face each other across a gap narrower than they are. As one leaf, the cluster receives no more than there
+// is; but of what the two send to and fro, more arrives each time than was sent.
+TEST_CASE("lamps of a cluster that are limited as one may have no steady state; limited each on its own they have one") {
+  LinearProblem problem{6, 0.4, 3};
+  constexpr std::uint32_t one = 6, other = 7;
+  problem.hierarchy[0].cluster = 0;
+  std::erase_if(problem.links, [](const radiosity::Link& link) { return link.p == 0 || link.q == 0; });
+  std::vector<double>& area = problem.exposure.area;
+  for (const std::uint32_t small : {one, other}) {
+    area[0] += 0.001 - area[small];
+    area[small] = 0.001;
+  }
+  std::erase_if(problem.links, [](const radiosity::Link& link) { return link.p == one || link.p == other; });
+  problem.links.push_back({one, other, 0.002f});
+  radiosity::ClosedNodes lamps;
+  lamps.lamps.assign(problem.hierarchy.size(), false);
+  for (const std::uint32_t lamp : {0u, 6u, 7u, 8u, 9u}) { lamps.lamps[lamp] = true; }
+  Transport transport{problem.hierarchy, problem.links, problem.exposure, 1, lamps};
+  transport.limit_row_sums(transport.row_sums(), 1.1);
+  CHECK(transport.row_sums()[one] > 1.9);
+  CHECK_FALSE(problem.solve(transport, 0.9, Solver::conjugate_gradients).converged);
+  transport.limit_row_sums(transport.row_sums(), 1.1, true);
+  for (const double row : transport.row_sums()) { CHECK(row <= 1.1 + 1e-6); }
+  CHECK(problem.solve(transport, 0.9, Solver::conjugate_gradients).converged);
+}
+
 TEST_CASE("a link with gradients carries what links between its leaves carry whose kernel is linear") {
   LinearProblem coarse{2, 0.5, 5};
   for (std::uint32_t i = 2; i < 10; ++i) { coarse.exposure.centroid[i] = {0.1 * (i % 4), 0.2 * (i % 3), 0.3 * (i % 2)}; }

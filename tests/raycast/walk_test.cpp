@@ -98,7 +98,8 @@ TEST_CASE("a line along an axis meets the boxes around it, and no others") {
     for (int other = 0; other < 3; ++other) {
       if (other != axis) { wanted = wanted && line.origin[other] >= box.lo[other] && line.origin[other] <= box.hi[other]; }
     }
-    const double a = (box.lo[axis] - line.origin[axis]) * line.direction[axis], b = (box.hi[axis] - line.origin[axis]) * line.direction[axis];
+    const double a = (box.lo[axis] - line.origin[axis]) * line.direction[axis],
+                 b = (box.hi[axis] - line.origin[axis]) * line.direction[axis];
     wanted = wanted && std::max(std::min(a, b), t0) <= std::min(std::max(a, b), t1);
     double entry = 0.0;
     CAPTURE(k, axis, t0, t1, box.lo.x, box.lo.y, box.lo.z, box.hi.x, box.hi.y, box.hi.z, line.origin.x, line.origin.y, line.origin.z);
