@@ -23,7 +23,7 @@
 //     decals     flat surfaces that lie on a larger one cover it                               decals.hpp
 //     layers     of polygons of one surface that lie partly on each other the smaller is seen  layers.hpp
 //     objects    closed shells become solids or rooms, all else surfaces with one or two       objects.hpp, shells.hpp,
-//                sides                                                                         open_surfaces.hpp
+//                sides                                                                         open_surfaces.hpp, subset.hpp
 //
 // Time: n log n for n polygons of bounded size. Keeps no reference to the input.
 
