@@ -242,10 +242,11 @@ class SceneMaker {
     if (std::ranges::all_of(intake.objects, [](const auto& object) { return object.shape->solid(); })) { return {}; }
     radiosity::Scene scene{.materials = file_.scene.materials, .objects = intake.objects};
     std::ranges::copy_if(model_.objects, std::back_inserter(scene.objects), [&](const auto& object) { return !panes_.has(object); });
-    const OpenRooms rooms(scene);
     std::vector<glm::dvec3> eyes = eyes_;
     for (const radiosity::Camera& camera : file_.cameras) { eyes.push_back(camera.eye); }
-    if (eyes.empty() && whole_ && model_.lights.empty() && !has_lamp(scene)) {
+    if (eyes.empty() && (!whole_ || !model_.lights.empty() || has_lamp(scene))) { return {}; }
+    const OpenRooms rooms(scene);
+    if (eyes.empty()) {
       if (const auto hidden = rooms.hidden()) { eyes.push_back(hidden->eye); }
     }
     OpenRooms::Surfaces roof;

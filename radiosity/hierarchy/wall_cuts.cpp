@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -88,6 +89,25 @@ inline constexpr std::size_t most_face_pairs = 10'000'000;
   return !surface.object->solid() && faces > 1 && faces * faces <= most_face_pairs;
 }
 
+// Calls visit(i) for the boxes of the tree that meet this one within the tolerance.
+template <class Visit>
+void each_meeting(const raycast::Bvh& tree, std::span<const raycast::Box> boxes, const raycast::Box& box, double tolerance,
+                  std::vector<std::uint32_t>& stack, Visit&& visit) {
+  stack.assign(1, 0);
+  while (!stack.empty()) {
+    const raycast::Bvh::Node& node = tree.nodes()[stack.back()];
+    stack.pop_back();
+    if (!boxes_meet(box, node.box, tolerance)) { continue; }
+    if (node.count == 0) {
+      stack.insert(stack.end(), {node.first, node.first + 1});
+      continue;
+    }
+    for (const std::uint32_t i : tree.items(node)) {
+      if (boxes_meet(box, boxes[i], tolerance)) { visit(i); }
+    }
+  }
+}
+
 // Pairs of objects with flat faces whose bounds meet.
 struct WallPairs {
   std::vector<std::uint32_t> order;                  // objects that can be cut or can cut others
@@ -115,25 +135,51 @@ HALFLIGHT_INLINE WallPairs wall_pairs(const std::vector<Surface>& surfaces, doub
   for (; i < boxes.size() && pairs < most_pairs; ++i) {
     std::vector<std::uint32_t>& partners = result.partners[result.order[i]];
     if (may_cross_itself(surfaces[result.order[i]])) { partners.push_back(result.order[i]); }
-    stack.assign(1, 0);
-    while (!stack.empty()) {
-      const raycast::Bvh::Node& node = tree.nodes()[stack.back()];
-      stack.pop_back();
-      if (!boxes_meet(boxes[i], node.box, tolerance)) { continue; }
-      if (node.count == 0) {
-        stack.insert(stack.end(), {node.first, node.first + 1});
-        continue;
-      }
-      for (const std::uint32_t k : tree.items(node)) {
-        if (k != i && boxes_meet(boxes[i], boxes[k], tolerance)) { partners.push_back(result.order[k]); }
-      }
-    }
+    each_meeting(tree, boxes, boxes[i], tolerance, stack, [&](std::uint32_t k) {
+      if (k != i) { partners.push_back(result.order[k]); }
+    });
     std::sort(partners.begin(), partners.end());
     pairs += partners.size();
   }
   result.not_looked_at = boxes.size() - i;
   return result;
 }
+
+// The faces of all objects, to find those near a given one.
+class WallTree {
+ public:
+  explicit WallTree(const std::vector<std::vector<WallFace>>& walls) {
+    for (std::uint32_t o = 0; o < walls.size(); ++o) {
+      for (const WallFace& wall : walls[o]) {
+        places_.push_back({o, &wall});
+        boxes_.push_back(wall.box.grown(close_gap * wall.box.diameter()));
+      }
+    }
+    tree_ = raycast::Bvh{boxes_};
+  }
+
+  // Faces of these objects (ascending) that are as near to the box as close_gap of their own size, in their order.
+  [[nodiscard]] std::vector<const WallFace*> near(const raycast::Box& box, const std::vector<std::uint32_t>& objects) {
+    std::vector<std::uint32_t> found;
+    each_meeting(tree_, boxes_, box, 0.0, stack_, [&](std::uint32_t i) {
+      if (std::binary_search(objects.begin(), objects.end(), places_[i].object)) { found.push_back(i); }
+    });
+    std::sort(found.begin(), found.end());
+    std::vector<const WallFace*> faces;
+    for (const std::uint32_t i : found) { faces.push_back(places_[i].face); }
+    return faces;
+  }
+
+ private:
+  struct Place {
+    std::uint32_t object;
+    const WallFace* face;
+  };
+  std::vector<Place> places_;  // sorted by object
+  std::vector<raycast::Box> boxes_;
+  raycast::Bvh tree_;
+  std::vector<std::uint32_t> stack_;
+};
 
 }  // namespace detail
 
@@ -149,6 +195,7 @@ HALFLIGHT_INLINE std::size_t cut_at_walls(std::vector<Surface>& surfaces, double
     walls[o] = detail::wall_faces(surfaces[o]);
     for (detail::WallFace& wall : walls[o]) { wall.lamps = lamps.beside(wall); }
   }
+  detail::WallTree tree(walls);
   for (const std::uint32_t o : order) {
     SurfaceBRep& brep = surfaces[o].brep;
     std::vector<brep::FaceId> faces;
@@ -161,14 +208,11 @@ HALFLIGHT_INLINE std::size_t cut_at_walls(std::vector<Surface>& surfaces, double
     if (faces.size() != walls[o].size() || face_pairs > detail::most_face_pairs) { continue; }
     for (std::size_t k = 0; k < faces.size(); ++k) {
       std::vector<detail::WallLine> lines;
-      for (const std::uint32_t w : partners[o]) {
-        for (const detail::WallFace& wall : walls[w]) {
-          const double size = wall.box.diameter();
-          if (!detail::boxes_meet(walls[o][k].box, wall.box, detail::close_gap * size)) { continue; }
-          if (size >= detail::least_outline * diameter) { detail::add_outline(walls[o][k], wall, tolerance, lines); }
-          if (detail::boxes_meet(walls[o][k].box, wall.box, std::max(tolerance, detail::foot_gap * size))) {
-            detail::add_wall(walls[o][k], wall, tolerance, lines);
-          }
+      for (const detail::WallFace* const wall : tree.near(walls[o][k].box, partners[o])) {
+        const double size = wall->box.diameter();
+        if (size >= detail::least_outline * diameter) { detail::add_outline(walls[o][k], *wall, tolerance, lines); }
+        if (detail::boxes_meet(walls[o][k].box, wall->box, std::max(tolerance, detail::foot_gap * size))) {
+          detail::add_wall(walls[o][k], *wall, tolerance, lines);
         }
       }
       if (!lines.empty()) { detail::cut_along(brep, faces[k], lines, tolerance); }
