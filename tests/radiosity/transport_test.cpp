@@ -96,8 +96,8 @@ TEST_CASE("a leaf that receives more than there is gets a row sum of 1, its neig
   check_symmetric(transport, 6, problem.hierarchy.size());
 }
 
-// Two small lamps of a cluster that face each other across a gap narrower than they are. As one leaf, the cluster receives no more than there
-// is; but of what the two send to and fro, more arrives each time than was sent.
+// Two small lamps of a cluster that face each other across a gap narrower than they are. As one leaf, the cluster receives no more than
+// there is; but of what the two send to and fro, more arrives each time than was sent.
 TEST_CASE("lamps of a cluster that are limited as one may have no steady state, but limited each on its own they have one") {
   LinearProblem problem{6, 0.4, 3};
   constexpr std::uint32_t one = 6, other = 7;
