@@ -33,33 +33,42 @@ constexpr std::size_t most_lamps = 64;  // that are added
 void AddedLight::look_for_light() {
   constexpr std::size_t most_cameras = 16;
   const LightViews views(file_.scene);
-  std::vector<std::string> dark;
-  for (std::size_t i = 0; i < std::min(most_cameras, file_.cameras.size()); ++i) {
-    if (views.lit_share(file_.cameras[i]) < LightViews::tol_dark) { dark.push_back("'" + file_.cameras[i].name + "'"); }
-    if (file_.cameras[i].name == "inside") { return; }
+  std::vector<radiosity::Camera>& cameras = file_.cameras;
+  std::vector<std::size_t> dark;
+  const std::size_t count = std::min(most_cameras, cameras.size());
+  for (std::size_t i = 0; i < count; ++i) {
+    if (views.lit_share(cameras[i]) < LightViews::tol_dark) { dark.push_back(i); }
+    if (cameras[i].name == "inside") { return; }
   }
-  if (file_.cameras.empty()) { return choose_view(views); }
+  if (cameras.empty()) { return choose_view(views); }
   if (dark.empty()) { return; }
-  const bool replaced = !eye_chosen_ && dark.size() == file_.cameras.size();
+  const bool first = !eye_chosen_ && dark[0] == 0, all = dark.size() == count;
+  std::string sentence = dark.size() == 1 ? "camera '" + cameras[dark[0]].name + "' sees" : counted(dark.size(), "camera") + " see";
+  sentence += " next to nothing that a lamp shines on";
+  const auto taken_by = [&](const radiosity::Camera& other) {
+    return "; the picture is taken by another, '" + other.name + "' (the file's own: --camera '" + cameras[0].name + "')";
+  };
+  if (first && !all) {
+    std::size_t lit = 1;
+    while (lit < dark.size() && dark[lit] == lit) { ++lit; }
+    note(sentence + taken_by(cameras[lit]));
+    std::rotate(cameras.begin(), cameras.begin() + static_cast<std::ptrdiff_t>(lit),
+                cameras.begin() + static_cast<std::ptrdiff_t>(lit) + 1);
+    return;
+  }
   std::optional<radiosity::Camera> better;
-  if (replaced && studio_view_ && views.lit_share(*studio_view_) >= LightViews::tol_dark) { better = studio_view_; }
+  if (first && studio_view_ && views.lit_share(*studio_view_) >= LightViews::tol_dark) { better = studio_view_; }
   if (!better) {
     auto inside = views.inside();
     if (inside && inside->lit >= LightViews::tol_dark) { better = std::move(inside->camera); }
   }
-  if (replaced && !better) {
+  if (first && !better) {
     radiosity::Camera outside = radiosity::automatic_camera(file_.scene);
     if (views.lit_share(outside) >= LightViews::tol_dark) { better = std::move(outside); }
   }
-  std::string advice;
-  if (better && !eye_chosen_) {
-    advice = replaced
-                 ? "; the picture is taken by another, '" + better->name + "' (the file's own: --camera '" + file_.cameras[0].name + "')"
-                 : "; --camera inside stands in the room of a lamp";
-  }
-  note((dark.size() == 1 ? "camera " + dark[0] + " sees" : counted(dark.size(), "camera") + " see") +
-       " next to nothing that a lamp shines on" + advice);
-  if (better) { file_.cameras.insert(replaced ? file_.cameras.begin() : file_.cameras.end(), *std::move(better)); }
+  if (better && !eye_chosen_) { sentence += first ? taken_by(*better) : "; --camera inside stands in the room of a lamp"; }
+  note(std::move(sentence));
+  if (better) { cameras.insert(first ? cameras.begin() : cameras.end(), *std::move(better)); }
 }
 
 void AddedLight::choose_view(const LightViews& views) {

@@ -177,7 +177,7 @@ TEST_CASE("the camera in a house does not depend on the order of polygons, and o
 }
 
 // A block in the sun, and cameras of the file that look at its shadowed side or away from it.
-TEST_CASE("a file whose cameras see nothing lit is looked at from outside, where that shows its light") {
+TEST_CASE("a file whose first camera sees nothing lit is looked at by another, or from outside, where that shows its light") {
   const unsigned seed = test::seed();
   INFO("seed " << seed);
   std::mt19937 random(seed);
@@ -196,14 +196,21 @@ TEST_CASE("a file whose cameras see nothing lit is looked at from outside, where
     behind.name = "behind";
     behind.eye = {1.0, 8.0 + unit(random), 0.4};
     behind.forward = round % 2 == 0 ? glm::dvec3(0, -1, 0) : glm::dvec3(0, 1, 0);
-    model.cameras = {behind};
+    radiosity::Camera before;
+    before.name = "before";
+    before.eye = {1.0, -8.0, 3.0 + unit(random)};
+    before.forward = {0, 8, -3};
+    model.cameras = {behind, behind};
+    const bool one_sees = round >= 4;
+    if (one_sees) { model.cameras.push_back(before); }
     std::vector<std::string> faults;
     const auto file = apps::to_scene(std::move(model), apps::UpAxis::z, {}, faults);
     REQUIRE(file);
     CAPTURE(round);
-    CHECK(noted(file->notes, "the picture is taken by another, 'automatic'"));
-    REQUIRE(file->cameras.size() == 2);
-    CHECK(file->cameras.back().name == "behind");
+    CHECK(noted(file->notes, std::string("the picture is taken by another, '") + (one_sees ? "before" : "automatic") + "'"));
+    REQUIRE(file->cameras.size() == 3);
+    CHECK(file->cameras[1].name == "behind");
+    CHECK(file->cameras[2].name == "behind");
     CHECK(apps::LightViews(file->scene).lit_share(file->cameras.front()) > 0.3);
   }
 }
