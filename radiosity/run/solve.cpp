@@ -95,8 +95,8 @@ HALFLIGHT_INLINE void solve_system(Run& run) {
   run.solution.radiosity = std::move(solved.radiosity);
 }
 
-// Lamps of a cluster that reflect and are very close to each other, as the blades of a glowing louvre, may still have row sums so large that
-// their light grows without end: no steady state. Then each of them is limited. Returns false if this changes nothing.
+// Lamps of a cluster that reflect and are very close to each other, as the blades of a glowing louvre, may still have row sums so large
+// that their light grows without end: no steady state. Then each of them is limited. Returns false if this changes nothing.
 HALFLIGHT_INLINE bool limit_lamps_apart(Run& run) {
   const DiscreteScene& scene = run.scene;
   std::vector<double>& rows = run.solution.row_sum;
