@@ -46,7 +46,7 @@ void AddedLight::look_for_light() {
   std::string sentence = dark.size() == 1 ? "camera '" + cameras[dark[0]].name + "' sees" : counted(dark.size(), "camera") + " see";
   sentence += " next to nothing that a lamp shines on";
   const auto taken_by = [&](const radiosity::Camera& other) {
-    return "; the picture is taken by another, '" + other.name + "' (the file's own: --camera '" + cameras[0].name + "')";
+    return "; the picture is taken by another, '" + other.name + "' (the file's first: --camera '" + cameras[0].name + "')";
   };
   if (first && !all) {
     std::size_t lit = 1;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include <raycast/ray.hpp>
@@ -60,13 +61,18 @@ OpenRooms::Around OpenRooms::look_around(const glm::dvec3& eye) const {
   return around;
 }
 
-OpenRooms::Surfaces OpenRooms::roof_over(const glm::dvec3& eye) const { return around(eye) ? look_around(eye).roof : Surfaces(); }
+bool OpenRooms::is_room(const Around& here) const {
+  return here.open <= most_open || (here.open <= open_beside_door && look_around(here.bounds.centre()).open <= most_open);
+}
+
+OpenRooms::Surfaces OpenRooms::roof_over(const glm::dvec3& eye) const {
+  Around here = look_around(eye);
+  return is_room(here) ? std::move(here.roof) : Surfaces();
+}
 
 std::optional<raycast::Box> OpenRooms::around(const glm::dvec3& eye) const {
-  Around here = look_around(eye);
-  if (here.open <= most_open) { return here.bounds; }
-  if (here.open > open_beside_door || look_around(here.bounds.centre()).open > most_open) { return std::nullopt; }
-  return here.bounds;
+  const Around here = look_around(eye);
+  return is_room(here) ? std::optional(here.bounds) : std::nullopt;
 }
 
 std::optional<OpenRooms::Hidden> OpenRooms::hidden() const {

@@ -25,12 +25,12 @@ class OpenRooms {
   // outside then reaches the surroundings. Beside a doorway a quarter may, if from the middle of what is seen only a tenth does.
   [[nodiscard]] std::optional<raycast::Box> around(const glm::dvec3& eye) const;
 
-  // The bounds of a room that nobody sees from outside: from a place in it, at least three times as many surfaces are seen as from any side
-  // outside, nearly all of them from the front, but for a roof. A box with furniture is one; a house that has more to show outside is not.
   struct Hidden {
-    glm::dvec3 eye{0.0};
+    glm::dvec3 eye{0.0};  // a place in the room
     raycast::Box bounds;
   };
+  // A room that nobody sees from outside: from a place in it, at least three times as many surfaces are seen as from any side outside,
+  // nearly all of them from the front, but for a roof. A box with furniture is one; a house that has more to show outside is not.
   [[nodiscard]] std::optional<Hidden> hidden() const;
 
   using Surfaces = std::set<std::pair<std::uint32_t, std::uint32_t>>;  // object and sheet
@@ -45,6 +45,7 @@ class OpenRooms {
     Surfaces surfaces, roof;
   };
   [[nodiscard]] Around look_around(const glm::dvec3& eye) const;
+  [[nodiscard]] bool is_room(const Around& here) const;  // as around() asks
 
   const radiosity::Scene& scene_;
   raycast::Scene objects_;

@@ -76,7 +76,8 @@ HALFLIGHT_INLINE void make_transport(Run& run) {
   audit.row_sum = summarise_rows(scene.hierarchy, area, solution.row_sum);
 }
 
-HALFLIGHT_INLINE void solve_system(Run& run) {
+// Returns false if no solution was found: there may be none.
+[[nodiscard]] HALFLIGHT_INLINE bool solve_system(Run& run) {
   const DiscreteScene& scene = run.scene;
   Audit& audit = run.solution.audit;
   const auto solve_by = [&](Solver solver, const Control& until) {
@@ -93,6 +94,7 @@ HALFLIGHT_INLINE void solve_system(Run& run) {
   audit.converged = solved.converged && !audit.interrupted && audit.shortage.empty();
   audit.histories = std::move(solved.histories);
   run.solution.radiosity = std::move(solved.radiosity);
+  return solved.converged;
 }
 
 // Lamps of a cluster that reflect and are very close to each other, as the blades of a glowing louvre, may still have row sums so large
@@ -133,8 +135,8 @@ HALFLIGHT_INLINE std::optional<Failure> solve(detail::Run& run) {
   const DiscreteScene& scene = run.scene;
   Audit& audit = run.solution.audit;
   detail::make_transport(run);
-  detail::solve_system(run);
-  if (audit.residual > run.options.residual && !run.stopped() && detail::limit_lamps_apart(run)) { detail::solve_system(run); }
+  const bool solved = detail::solve_system(run);
+  if (!solved && !run.stopped() && detail::limit_lamps_apart(run)) { static_cast<void>(detail::solve_system(run)); }
   detail::estimate_error(run);
   balance_energy(audit, scene, *run.transport, run.solution.radiosity);
   if (std::string sentence = warning_of_lost_light(scene, run.solution.radiosity); !sentence.empty()) {
