@@ -46,6 +46,14 @@ struct Box {
     return p.x >= lo.x - margin && p.x <= hi.x + margin && p.y >= lo.y - margin && p.y <= hi.y + margin && p.z >= lo.z - margin &&
            p.z <= hi.z + margin;
   }
+  [[nodiscard]] bool contains(const Box& b) const {
+    return lo.x <= b.lo.x && lo.y <= b.lo.y && lo.z <= b.lo.z && b.hi.x <= hi.x && b.hi.y <= hi.y && b.hi.z <= hi.z;
+  }
+  // Do they have a point in common, or come as close to each other as `margin` along every axis?
+  [[nodiscard]] bool meets(const Box& b, double margin = 0.0) const {
+    return lo.x - margin <= b.hi.x && b.lo.x - margin <= hi.x && lo.y - margin <= b.hi.y && b.lo.y - margin <= hi.y &&
+           lo.z - margin <= b.hi.z && b.lo.z - margin <= hi.z;
+  }
   void extend(const glm::dvec3& p) {
     lo = glm::dvec3{std::min(lo.x, p.x), std::min(lo.y, p.y), std::min(lo.z, p.z)};
     hi = glm::dvec3{std::max(hi.x, p.x), std::max(hi.y, p.y), std::max(hi.z, p.z)};

@@ -12,7 +12,6 @@
 
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
-#include <glm/vector_relational.hpp>
 
 #include <brep/ears.hpp>
 #include <brep/inline.hpp>
@@ -130,9 +129,6 @@ class FacePairs {
     for (const std::uint32_t v : corners) { box.extend(positions_[v]); }
     return box;
   }
-  [[nodiscard]] static bool overlap(const Box& a, const Box& b) {
-    return glm::all(glm::lessThanEqual(a.lo, b.hi)) && glm::all(glm::lessThanEqual(b.lo, a.hi));
-  }
   [[nodiscard]] bool apart(std::uint32_t f, std::uint32_t g) {
     if (hulls_apart(faces_[f], faces_[g], positions_, rounding_)) { return true; }
     if (faces_[f].corners.size() == 3 && faces_[g].corners.size() == 3) { return false; }
@@ -141,9 +137,9 @@ class FacePairs {
     const Box around_g = bounds(faces_[g].corners).grown(4 * rounding_);
     for (const Triangle& a : of_f) {
       const Box around_a = bounds(a).grown(4 * rounding_);
-      if (!overlap(around_a, around_g)) { continue; }
+      if (!around_a.meets(around_g)) { continue; }
       for (const Triangle& b : of_g) {
-        if (overlap(around_a, bounds(b)) && !hulls_apart({a, faces_[f].normal}, {b, faces_[g].normal}, positions_, rounding_)) {
+        if (around_a.meets(bounds(b)) && !hulls_apart({a, faces_[f].normal}, {b, faces_[g].normal}, positions_, rounding_)) {
           return false;
         }
       }
@@ -189,7 +185,7 @@ HALFLIGHT_INLINE bool faces_apart(const std::vector<MeshFace>& faces, const std:
     const Box box = pairs.bounds(faces[f].corners);
     const auto meets = [&](std::uint32_t g) { return g > f && !pairs.apart(f, g); };
     bool met = any_within(
-        bvh, [&](const Box& other) { return detail::FacePairs::overlap(box, other); }, meets);
+        bvh, [&](const Box& other) { return other.meets(box); }, meets);
     for (std::uint32_t g = f + 1; bvh.empty() && g < count && !met; ++g) { met = meets(g); }
     if (met) { return false; }
   }

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include <glm/geometric.hpp>
-#include <glm/vector_relational.hpp>
 
 #include <brep/handles.hpp>
 #include <brep/polygon.hpp>
@@ -42,9 +41,7 @@ std::vector<bool> covering(const radiosity::Mesh& mesh, const radiosity::Solutio
     const glm::dvec3 normal = objects[input.object].project(input.sheet, leaf.centre()).normal;
     for (const std::uint32_t i : pieces) {
       const double near = 1e-6 * leaf.diameter();
-      const raycast::Box& box = objects[i].bounds();
-      const bool apart = glm::any(glm::greaterThan(leaf.lo, box.hi + near)) || glm::any(glm::greaterThan(box.lo, leaf.hi + near));
-      if (result[i] || i == input.object || apart) { continue; }
+      if (result[i] || i == input.object || !objects[i].bounds().meets(leaf, near)) { continue; }
       const raycast::SurfacePoint at = objects[i].project(0, leaf.centre());
       const double height = std::abs(glm::dot(at.position - leaf.centre(), at.normal));
       result[i] = glm::dot(at.normal, normal) > 0.999999 && height <= near;

@@ -17,7 +17,6 @@
 
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
-#include <glm/vector_relational.hpp>
 
 #include <raycast/box.hpp>
 #include <raycast/circle.hpp>
@@ -195,11 +194,8 @@ class LampMaker {
     if (!radiosity::shines_all_over(file_.scene, object)) { return false; }
     constexpr double beyond = 0.05, far = 0.25, large = 0.1;  // of the diameter of all else
     const double size = lit_.diameter();
-    const raycast::Box own = radiosity::placed_bounds(*object.shape, object.placement), near = lit_.grown(beyond * size),
-                       around = lit_.grown(far * size);
-    const bool reaches_out = glm::any(glm::lessThan(own.lo, near.lo)) || glm::any(glm::greaterThan(own.hi, near.hi));
-    const bool outside = glm::any(glm::lessThan(own.hi, around.lo)) || glm::any(glm::greaterThan(own.lo, around.hi));
-    return reaches_out && (outside || own.diameter() >= large * size);
+    const raycast::Box own = radiosity::placed_bounds(*object.shape, object.placement);
+    return !lit_.grown(beyond * size).contains(own) && (!lit_.meets(own, far * size) || own.diameter() >= large * size);
   }
 
   // A light from a direction is infinitely far away, and the sky of a file is not. Where the sky would hide a sun, it is enlarged from the

@@ -13,7 +13,6 @@
 
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
-#include <glm/vector_relational.hpp>
 
 #include <brep/brep.hpp>
 #include <brep/builder_input.hpp>
@@ -164,7 +163,7 @@ HALFLIGHT_INLINE void DirectLight::set_tolerances(const raycast::Box& dark) {
   slack_ = std::max(detail::rounding_slack, detail::least_slack * size);
   for (std::uint32_t o = 0; o < objects_->size(); ++o) {
     const raycast::Box box = objects_->object(o).bounds();
-    const bool apart = !dark.empty() && (glm::any(glm::greaterThan(box.lo, dark.hi)) || glm::any(glm::lessThan(box.hi, dark.lo)));  // a sun
+    const bool apart = !dark.empty() && !box.meets(dark);  // a sun
     if (!apart) { slack_ = std::max(slack_, 2.0 * objects_->object(o).slack()); }
   }
 }

@@ -11,7 +11,6 @@
 
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
-#include <glm/vector_relational.hpp>
 
 #include <brep/brep.hpp>
 #include <brep/builder_input.hpp>
@@ -91,7 +90,7 @@ struct CoverCut {
   for (std::uint32_t o = object + 1; o < objects.size(); ++o) {
     const raycast::PlacedObject& other = objects.object(o);
     const raycast::Box bounds = other.bounds();
-    if (glm::any(glm::greaterThan(bounds.lo, box.hi)) || glm::any(glm::lessThan(bounds.hi, box.lo))) { continue; }
+    if (!bounds.meets(box)) { continue; }
     if (!other.exact()) {
       for (Facets::Facet& facet : radiosity::facets_of(other, cover_tolerance * bounds.diameter()).facets) {
         take(std::move(facet.contour));

@@ -13,7 +13,6 @@
 
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
-#include <glm/vector_relational.hpp>
 
 #include <brep/brep.hpp>
 #include <brep/builder_input.hpp>
@@ -95,8 +94,7 @@ class Burial {
     raycast::Box bounds;
     for (const glm::dvec3& p : face.contour) { bounds.extend(p); }
     const raycast::Box near = object.bounds().grown(slack_);
-    const bool apart = glm::any(glm::lessThan(near.hi, bounds.lo)) || glm::any(glm::lessThan(bounds.hi, near.lo));
-    if (apart && !object.inside()) { return true; }
+    if (!near.meets(bounds) && !object.inside()) { return true; }
     if (!object.exact()) {
       if (object.inside()) {
         return object.convex() && std::none_of(face.contour.begin(), face.contour.end(),

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include <glm/vec3.hpp>
-#include <glm/vector_relational.hpp>
 
 #include <brep/inline.hpp>
 
@@ -142,10 +141,7 @@ HALFLIGHT_INLINE bool FactorRun::nothing_between(std::uint32_t a, std::uint32_t 
   hull.extend(scene.object(b).bounds());
   for (std::uint32_t o = 0; o < scene.size(); ++o) {
     if (o == a || o == b || (scene.object(o).inside() && scene.object(o).convex())) { continue; }
-    const raycast::Box& box = scene.object(o).bounds();
-    if (scene.object(o).inside() || (glm::all(glm::lessThanEqual(box.lo, hull.hi)) && glm::all(glm::lessThanEqual(hull.lo, box.hi)))) {
-      return false;
-    }
+    if (scene.object(o).inside() || scene.object(o).bounds().meets(hull)) { return false; }
   }
   return true;
 }
@@ -245,12 +241,8 @@ HALFLIGHT_INLINE bool FactorRun::may_be_covered(std::uint32_t object) const {
   const raycast::Box box = scene.object(object).bounds().grown(slack);
   for (std::uint32_t o = 0; o < scene.size(); ++o) {
     if (o == object) { continue; }
-    const raycast::Box& other = scene.object(o).bounds();
-    if (scene.object(o).inside()) {
-      // Even an object well inside the bounds of a convex room may be outside the room near its corners.
-      return true;
-    }
-    if (glm::all(glm::lessThanEqual(box.lo, other.hi)) && glm::all(glm::lessThanEqual(other.lo, box.hi))) { return true; }
+    // Even an object well inside the bounds of a convex room may be outside the room near its corners.
+    if (scene.object(o).inside() || scene.object(o).bounds().meets(box)) { return true; }
   }
   return false;
 }

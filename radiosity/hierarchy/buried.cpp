@@ -7,12 +7,12 @@
 #include <vector>
 
 #include <glm/vec3.hpp>
-#include <glm/vector_relational.hpp>
 
 #include <brep/inline.hpp>
 
 #include <raycast/box.hpp>
 #include <raycast/bvh.hpp>
+#include <raycast/point_query.hpp>
 #include <raycast/ray.hpp>
 #include <raycast/spans.hpp>
 #include <raycast/transform.hpp>
@@ -49,31 +49,19 @@ class ConvexSolids {
     const double margin = bulge + 4e-9 * (*surfaces_)[owner].object->bounds().diameter() + 1e-13;  // coordinates in the frame are about 1
     box = box.grown(margin);
     std::uint32_t asked = 0;
-    std::vector<std::uint32_t> stack{0};
-    while (!stack.empty() && asked < most_asked) {
-      const raycast::Bvh::Node& node = tree_.nodes()[stack.back()];
-      stack.pop_back();
-      if (!around(node.box, box)) { continue; }
-      if (node.count == 0) {
-        stack.insert(stack.end(), {node.first, node.first + 1});
-        continue;
-      }
-      for (const std::uint32_t item : tree_.items(node)) {
-        const raycast::PlacedObject& solid = *(*surfaces_)[solids_[item]].object;
-        if (solids_[item] == owner || !around(solid.bounds(), box)) { continue; }
-        ++asked;
-        if (holds(solid, points, margin)) { return true; }
-      }
-    }
-    return false;
+    const auto hold_them = [&](std::uint32_t item) {
+      const raycast::PlacedObject& solid = *(*surfaces_)[solids_[item]].object;
+      if (solids_[item] == owner || !solid.bounds().contains(box)) { return false; }
+      ++asked;
+      return holds(solid, points, margin);
+    };
+    return raycast::any_within(
+        tree_, [&](const raycast::Box& around) { return asked < most_asked && around.contains(box); }, hold_them);
   }
 
  private:
   static constexpr std::uint32_t most_asked = 256;
 
-  [[nodiscard]] static bool around(const raycast::Box& outer, const raycast::Box& box) {
-    return glm::all(glm::lessThanEqual(outer.lo, box.lo)) && glm::all(glm::lessThanEqual(box.hi, outer.hi));
-  }
   // Tests octahedra around the points. A sphere of radius r lies within the octahedron of size sqrt(3) r, and because the solid is
   // convex, it contains everything between octahedra that it contains.
   [[nodiscard]] static bool holds(const raycast::PlacedObject& solid, const Polygon& points, double margin) {

@@ -14,6 +14,7 @@
 
 #include <raycast/box.hpp>
 #include <raycast/bvh.hpp>
+#include <raycast/point_query.hpp>
 #include <raycast/transform.hpp>
 
 #include <radiosity/hierarchy/surface.hpp>
@@ -35,23 +36,10 @@ HALFLIGHT_INLINE Extremes::Extremes(const std::vector<Surface>& surfaces) {
 }
 
 HALFLIGHT_INLINE bool Extremes::any_above(const glm::dvec3& point, const glm::dvec3& normal, double slack) const {
-  if (tree_.empty()) { return false; }
   const auto above = [&](const glm::dvec3& p) { return glm::dot(normal, p - point) > slack; };
-  std::vector<std::uint32_t> stack{0};
-  while (!stack.empty()) {
-    const raycast::Bvh::Node& node = tree_.nodes()[stack.back()];
-    stack.pop_back();
-    const unsigned highest = (normal.x > 0.0 ? 1u : 0u) + (normal.y > 0.0 ? 2u : 0u) + (normal.z > 0.0 ? 4u : 0u);
-    if (!above(node.box.corner(highest))) { continue; }
-    if (node.count == 0) {
-      stack.insert(stack.end(), {node.first, node.first + 1});
-      continue;
-    }
-    for (const std::uint32_t item : tree_.items(node)) {
-      if (above(points_[item])) { return true; }
-    }
-  }
-  return false;
+  const unsigned highest = (normal.x > 0.0 ? 1u : 0u) + (normal.y > 0.0 ? 2u : 0u) + (normal.z > 0.0 ? 4u : 0u);
+  return raycast::any_within(
+      tree_, [&](const raycast::Box& box) { return above(box.corner(highest)); }, [&](std::uint32_t k) { return above(points_[k]); });
 }
 
 }  // namespace radiosity

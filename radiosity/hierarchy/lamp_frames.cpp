@@ -19,6 +19,7 @@
 
 #include <raycast/box.hpp>
 #include <raycast/bvh.hpp>
+#include <raycast/point_query.hpp>
 
 #include <radiosity/hierarchy/surface.hpp>
 #include <radiosity/hierarchy/wall_lines.hpp>
@@ -33,6 +34,7 @@ namespace detail {
 inline constexpr double near_lamp = 0.5, size_of_frame = 4.0;
 // A frame must cover this share of a cut: with smaller ones, long narrow patches would do more harm.
 inline constexpr double share_of_frame = 0.02;
+inline constexpr std::size_t most_in_frame = 64;  // within a frame
 
 HALFLIGHT_INLINE LampBoxes::LampBoxes(const std::vector<Surface>& surfaces, const std::vector<Color>& emission) {
   if (emission.empty()) { return; }
@@ -46,28 +48,24 @@ HALFLIGHT_INLINE LampBoxes::LampBoxes(const std::vector<Surface>& surfaces, cons
       boxes_.push_back(box);
     }
   }
-  if (!boxes_.empty()) { tree_ = raycast::Bvh{boxes_}; }
+  if (boxes_.empty()) { return; }
+  std::vector<raycast::Box> reach;
+  for (const raycast::Box& box : boxes_) { reach.push_back(box.grown(near_lamp * box.diameter())); }
+  tree_ = raycast::Bvh{reach};
 }
 
 HALFLIGHT_INLINE std::vector<raycast::Box> LampBoxes::beside(const WallFace& wall) const {
   std::vector<raycast::Box> found;
   const double size = wall.box.diameter();
   if (boxes_.empty() || size > size_of_frame * largest_) { return found; }
-  std::vector<std::uint32_t> stack{0};
-  while (!stack.empty()) {
-    const raycast::Bvh::Node& node = tree_.nodes()[stack.back()];
-    stack.pop_back();
-    if (!boxes_meet(wall.box, node.box, near_lamp * largest_)) { continue; }
-    if (node.count == 0) {
-      stack.insert(stack.end(), {node.first, node.first + 1});
-      continue;
-    }
-    for (const std::uint32_t k : tree_.items(node)) {
-      const double lamp = boxes_[k].diameter();
-      if (size <= size_of_frame * lamp && boxes_meet(wall.box, boxes_[k], near_lamp * lamp)) { found.push_back(boxes_[k]); }
-    }
-  }
-  return found;
+  const auto look = [&](std::uint32_t k) {
+    const double lamp = boxes_[k].diameter();
+    if (size <= size_of_frame * lamp && wall.box.meets(boxes_[k], near_lamp * lamp)) { found.push_back(boxes_[k]); }
+    return found.size() > most_in_frame;
+  };
+  const bool many = raycast::any_within(
+      tree_, [&](const raycast::Box& reach) { return reach.meets(wall.box); }, look);
+  return many ? std::vector<raycast::Box>() : found;
 }
 
 // A cut along a line, and where it lies.

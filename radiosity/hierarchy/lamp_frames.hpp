@@ -34,8 +34,9 @@ class LampBoxes {
  public:
   // `emission`: of each input surface; none if empty.
   LampBoxes(const std::vector<Surface>& surfaces, const std::vector<Color>& emission);
-  // The bounds of the lamps around which this wall may be a frame: they are near, and not much smaller than the wall. Time: log n for n
-  // faces that emit, and the number of those found.
+  // The bounds of the lamps around which this wall may be a frame: they are near, and not much smaller than the wall. None if they are more
+  // than 64, because then the wall is one among many things that shine, not a frame. Time: log n for n faces that emit, if none is much
+  // larger than most.
   [[nodiscard]] std::vector<raycast::Box> beside(const WallFace& wall) const;
 
  private:

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -22,6 +21,7 @@
 
 #include <raycast/box.hpp>
 #include <raycast/bvh.hpp>
+#include <raycast/point_query.hpp>
 #include <raycast/transform.hpp>
 
 #include <radiosity/hierarchy/lamp_frames.hpp>
@@ -89,25 +89,6 @@ inline constexpr std::size_t most_face_pairs = 10'000'000;
   return !surface.object->solid() && faces > 1 && faces * faces <= most_face_pairs;
 }
 
-// Calls visit(i) for the boxes of the tree that meet this one within the tolerance.
-template <class Visit>
-void each_meeting(const raycast::Bvh& tree, std::span<const raycast::Box> boxes, const raycast::Box& box, double tolerance,
-                  std::vector<std::uint32_t>& stack, Visit&& visit) {
-  stack.assign(1, 0);
-  while (!stack.empty()) {
-    const raycast::Bvh::Node& node = tree.nodes()[stack.back()];
-    stack.pop_back();
-    if (!boxes_meet(box, node.box, tolerance)) { continue; }
-    if (node.count == 0) {
-      stack.insert(stack.end(), {node.first, node.first + 1});
-      continue;
-    }
-    for (const std::uint32_t i : tree.items(node)) {
-      if (boxes_meet(box, boxes[i], tolerance)) { visit(i); }
-    }
-  }
-}
-
 // Pairs of objects with flat faces whose bounds meet.
 struct WallPairs {
   std::vector<std::uint32_t> order;                  // objects that can be cut or can cut others
@@ -130,14 +111,16 @@ HALFLIGHT_INLINE WallPairs wall_pairs(const std::vector<Surface>& surfaces, doub
   if (boxes.empty()) { return result; }
   const raycast::Bvh tree{boxes};
   std::size_t pairs = 0;
-  std::vector<std::uint32_t> stack;
   std::size_t i = 0;
   for (; i < boxes.size() && pairs < most_pairs; ++i) {
     std::vector<std::uint32_t>& partners = result.partners[result.order[i]];
     if (may_cross_itself(surfaces[result.order[i]])) { partners.push_back(result.order[i]); }
-    each_meeting(tree, boxes, boxes[i], tolerance, stack, [&](std::uint32_t k) {
-      if (k != i) { partners.push_back(result.order[k]); }
-    });
+    const auto look = [&](std::uint32_t k) {
+      if (k != i && boxes[k].meets(boxes[i], tolerance)) { partners.push_back(result.order[k]); }
+      return false;  // false: visit all
+    };
+    raycast::any_within(
+        tree, [&](const raycast::Box& box) { return box.meets(boxes[i], tolerance); }, look);
     std::sort(partners.begin(), partners.end());
     pairs += partners.size();
   }
@@ -159,11 +142,14 @@ class WallTree {
   }
 
   // Faces of these objects (ascending) that are as near to the box as close_gap of their own size, in their order.
-  [[nodiscard]] std::vector<const WallFace*> near(const raycast::Box& box, const std::vector<std::uint32_t>& objects) {
+  [[nodiscard]] std::vector<const WallFace*> near(const raycast::Box& box, const std::vector<std::uint32_t>& objects) const {
     std::vector<std::uint32_t> found;
-    each_meeting(tree_, boxes_, box, 0.0, stack_, [&](std::uint32_t i) {
-      if (std::binary_search(objects.begin(), objects.end(), places_[i].object)) { found.push_back(i); }
-    });
+    const auto look = [&](std::uint32_t i) {
+      if (boxes_[i].meets(box) && std::binary_search(objects.begin(), objects.end(), places_[i].object)) { found.push_back(i); }
+      return false;  // false: visit all
+    };
+    raycast::any_within(
+        tree_, [&](const raycast::Box& other) { return other.meets(box); }, look);
     std::sort(found.begin(), found.end());
     std::vector<const WallFace*> faces;
     for (const std::uint32_t i : found) { faces.push_back(places_[i].face); }
@@ -178,7 +164,6 @@ class WallTree {
   std::vector<Place> places_;  // sorted by object
   std::vector<raycast::Box> boxes_;
   raycast::Bvh tree_;
-  std::vector<std::uint32_t> stack_;
 };
 
 }  // namespace detail
@@ -195,7 +180,7 @@ HALFLIGHT_INLINE std::size_t cut_at_walls(std::vector<Surface>& surfaces, double
     walls[o] = detail::wall_faces(surfaces[o]);
     for (detail::WallFace& wall : walls[o]) { wall.lamps = lamps.beside(wall); }
   }
-  detail::WallTree tree(walls);
+  const detail::WallTree tree(walls);
   for (const std::uint32_t o : order) {
     SurfaceBRep& brep = surfaces[o].brep;
     std::vector<brep::FaceId> faces;
@@ -211,7 +196,7 @@ HALFLIGHT_INLINE std::size_t cut_at_walls(std::vector<Surface>& surfaces, double
       for (const detail::WallFace* const wall : tree.near(walls[o][k].box, partners[o])) {
         const double size = wall->box.diameter();
         if (size >= detail::least_outline * diameter) { detail::add_outline(walls[o][k], *wall, tolerance, lines); }
-        if (detail::boxes_meet(walls[o][k].box, wall->box, std::max(tolerance, detail::foot_gap * size))) {
+        if (walls[o][k].box.meets(wall->box, std::max(tolerance, detail::foot_gap * size))) {
           detail::add_wall(walls[o][k], *wall, tolerance, lines);
         }
       }

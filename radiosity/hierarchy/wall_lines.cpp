@@ -55,13 +55,6 @@ HALFLIGHT_INLINE double WallLine::covered(double from, double to) const {
   return sum;
 }
 
-HALFLIGHT_INLINE bool boxes_meet(const raycast::Box& a, const raycast::Box& b, double margin) {
-  for (int k = 0; k < 3; ++k) {
-    if (!(a.lo[k] - margin <= b.hi[k] && b.lo[k] - margin <= a.hi[k])) { return false; }
-  }
-  return true;
-}
-
 // Sets the thickness: the distance behind each face to the next face that looks the other way. Solids of many faces are no walls.
 HALFLIGHT_INLINE void measure_thickness(std::vector<WallFace>& faces) {
   constexpr std::size_t most_faces = 256;
@@ -71,7 +64,7 @@ HALFLIGHT_INLINE void measure_thickness(std::vector<WallFace>& faces) {
     for (const WallFace& other : faces) {
       const double depth = glm::dot(face.normal, face.polygon[0] - other.polygon[0]);
       const bool behind = depth > 0.0 && depth < face.thickness && glm::dot(face.normal, other.normal) < -0.99;
-      if (behind && boxes_meet(face.box, other.box, (1.0 + 1e-6) * depth)) { face.thickness = depth; }
+      if (behind && face.box.meets(other.box, (1.0 + 1e-6) * depth)) { face.thickness = depth; }
     }
   }
 }

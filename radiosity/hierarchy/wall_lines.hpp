@@ -57,8 +57,6 @@ struct WallLine {
   [[nodiscard]] double covered(double from, double to) const;
 };
 
-[[nodiscard]] bool boxes_meet(const raycast::Box& a, const raycast::Box& b, double margin);
-
 // The faces of an object that may stand on others.
 [[nodiscard]] std::vector<WallFace> wall_faces(const Surface& surface);
 

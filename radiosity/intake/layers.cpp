@@ -13,7 +13,6 @@
 
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
-#include <glm/vector_relational.hpp>
 
 #include <brep/ears.hpp>
 #include <brep/inline.hpp>
@@ -22,6 +21,7 @@
 #include <raycast/box.hpp>
 #include <raycast/bvh.hpp>
 #include <raycast/planar.hpp>
+#include <raycast/point_query.hpp>
 
 #include <radiosity/geometry/form_factor.hpp>
 
@@ -69,36 +69,18 @@ class Layering {
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return areas_[a] > areas_[b]; });
     std::vector<bool> placed(faces_.size(), false);
     for (const std::size_t i : order) {
-      for_each_beside(i, [&](std::size_t k) {
-        if (placed[k] && layer[k] >= layer[i] && overlap(k, i)) { layer[i] = layer[k] + 1; }
-      });
+      const auto look = [&](std::uint32_t k) {
+        if (placed[k] && layer[k] >= layer[i] && boxes_[k].meets(boxes_[i]) && overlap(k, i)) { layer[i] = layer[k] + 1; }
+        return false;  // false: visit all
+      };
+      raycast::any_within(
+          tree_, [&](const raycast::Box& box) { return box.meets(boxes_[i]); }, look);
       placed[i] = true;
     }
     return layer;
   }
 
  private:
-  static bool meet(const raycast::Box& a, const raycast::Box& b) {
-    return glm::all(glm::lessThanEqual(a.lo, b.hi)) && glm::all(glm::lessThanEqual(b.lo, a.hi));
-  }
-
-  template <class Visit>
-  void for_each_beside(std::size_t i, Visit&& visit) {
-    stack_.assign(1, 0);
-    while (!stack_.empty()) {
-      const raycast::Bvh::Node& node = tree_.nodes()[stack_.back()];
-      stack_.pop_back();
-      if (!meet(node.box, boxes_[i])) { continue; }
-      if (node.count == 0) {
-        stack_.insert(stack_.end(), {node.first, node.first + 1});
-        continue;
-      }
-      for (const std::uint32_t k : tree_.items(node)) {
-        if (k != i && meet(boxes_[k], boxes_[i])) { visit(k); }
-      }
-    }
-  }
-
   [[nodiscard]] std::vector<glm::dvec3> outline(std::size_t i) {
     const std::span<const glm::dvec3> points = mesh_.outline(mesh_.faces[faces_[i]]);
     return {points.begin(), points.end()};
@@ -121,7 +103,6 @@ class Layering {
   std::vector<double> areas_;
   std::vector<raycast::Plane> planes_;
   raycast::Bvh tree_;
-  std::vector<std::uint32_t> stack_;
 };
 
 }  // namespace detail

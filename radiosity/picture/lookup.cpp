@@ -13,7 +13,6 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
-#include <glm/vector_relational.hpp>
 
 #include <brep/inline.hpp>
 
@@ -141,9 +140,7 @@ HALFLIGHT_INLINE void Lookup::find_coarse() {
       double within = most - least > detail::told_apart * most ? longest : 0.0;
       const std::array<glm::dvec3, 3> corner = chord(triangle).position;
       const glm::dvec3 n = glm::normalize(glm::cross(corner[1] - corner[0], corner[2] - corner[0]));
-      const auto meets = [&](const raycast::Box& other) {
-        return glm::all(glm::lessThanEqual(box.lo, other.hi)) && glm::all(glm::lessThanEqual(other.lo, box.hi));
-      };
+      const auto meets = [&](const raycast::Box& other) { return other.meets(box); };
       const auto look = [&](std::uint32_t k) {
         const bool darkens =
             others[k] != own && meets(reached[k]) && detail::rise(bounds[k], corner[0], n) > detail::least_rise * widths[k];

@@ -83,13 +83,7 @@ HALFLIGHT_INLINE void add_fronts(const Surface& surface, std::uint32_t object, s
   for (std::size_t i = 0; i < walls; ++i) {
     const raycast::Box& own = boxes[i];
     const bool found = raycast::any_within(
-        tree,
-        [&](const raycast::Box& box) {
-          for (int k = 0; k < 3; ++k) {
-            if (box.lo[k] > own.hi[k] || box.hi[k] < own.lo[k]) { return false; }
-          }
-          return true;
-        },
+        tree, [&](const raycast::Box& box) { return box.meets(own); },
         [&](std::uint32_t j) { return j != i && (pierces(faces[i], faces[j]) || pierces(faces[j], faces[i])); });
     if (found) { return true; }
   }

@@ -8,13 +8,13 @@
 
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
-#include <glm/vector_relational.hpp>
 
 #include <brep/geometry.hpp>
 #include <brep/inline.hpp>
 
 #include <raycast/box.hpp>
 #include <raycast/bvh.hpp>
+#include <raycast/point_query.hpp>
 #include <raycast/scene.hpp>
 #include <raycast/transform.hpp>
 
@@ -50,23 +50,9 @@ class Neighbourhood {
     raycast::Box box;
     for (const glm::dvec3& p : patch.contour) { box.extend(p); }
     box = box.grown(margin_);
-    const auto meets = [&](const raycast::Box& other) {
-      return glm::all(glm::lessThanEqual(box.lo, other.hi)) && glm::all(glm::lessThanEqual(other.lo, box.hi));
-    };
-    std::vector<std::uint32_t> stack{0};
-    while (!stack.empty()) {
-      const raycast::Bvh::Node& node = tree_.nodes()[stack.back()];
-      stack.pop_back();
-      if (!meets(node.box)) { continue; }
-      if (node.count == 0) {
-        stack.insert(stack.end(), {node.first, node.first + 1});
-        continue;
-      }
-      for (const std::uint32_t item : tree_.items(node)) {
-        if (item != object && meets(boxes_[item])) { return true; }
-      }
-    }
-    return false;
+    return raycast::any_within(
+        tree_, [&](const raycast::Box& other) { return other.meets(box); },
+        [&](std::uint32_t item) { return item != object && boxes_[item].meets(box); });
   }
 
  private:

@@ -52,10 +52,7 @@ HALFLIGHT_INLINE CsgRegion CsgRegions::run() const {
 
 HALFLIGHT_INLINE CsgRegions::Where CsgRegions::where(std::uint32_t leaf, const Box& cell) const {
   const PlacedObject& solid = tree_.leaves()[leaf].solid;
-  const Box& bounds = solid.bounds();
-  for (int k = 0; k < 3; ++k) {
-    if (cell.lo[k] > bounds.hi[k] || cell.hi[k] < bounds.lo[k]) { return Where::outside; }
-  }
+  if (!cell.meets(solid.bounds())) { return Where::outside; }
   if (shrink_[leaf] == 0.0) { return Where::unknown; }
   const glm::dvec3 middle = cell.centre();
   const double radius = 0.5 * cell.diameter() / shrink_[leaf] * (1.0 + tol_cell) + tol_cell_place * cell.magnitude();

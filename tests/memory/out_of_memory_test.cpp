@@ -53,13 +53,13 @@ void check_outcome(const Outcome& outcome, const Outcome& whole) {
   }
 }
 
-// Lets one allocation fail after the other: the 1st, 2nd, 4th, 8th ... and some at random.
+// Lets one allocation fail after the other: the 1st, 2nd, 4th, 8th ... and as many counted from the last one, and some at random.
 template <class Check>
 void for_failing_allocations(std::uint64_t count, std::uint32_t seed, const Check& check) {
   INFO("seed " << seed);
   std::mt19937_64 random{seed};
   std::vector<std::uint64_t> which;
-  for (std::uint64_t n = 1; n <= count; n *= 2) { which.push_back(n); }
+  for (std::uint64_t n = 1; n <= count; n *= 2) { which.insert(which.end(), {n, count + 1 - n}); }
   for (int i = 0; i < 20; ++i) { which.push_back(1 + random() % count); }
   for (const std::uint64_t n : which) {
     CAPTURE(n, count);
