@@ -38,19 +38,20 @@ std::shared_ptr<const Node> Parser::read() {
     return nullptr;
   }
   if (in_.take("USE")) { return used_node(); }
-  std::string name;
-  if (in_.take("DEF")) {
+  std::vector<std::string> names;
+  while (ok() && in_.take("DEF")) {  // more than one is against the grammar, but clear
     if (!in_.is_word()) { fail("expected a name after DEF, " + found()); }
-    name = in_.token();
+    names.emplace_back(in_.token());
     in_.next();
   }
+  if (!ok()) { return nullptr; }
   if (!in_.is_word()) {
     fail("expected a node such as " + example() + ", " + found());
     return nullptr;
   }
   auto node = std::make_shared<Node>();
   node->type = in_.token();
-  node->name = name;
+  if (!names.empty()) { node->name = names.back(); }
   node->place = in_.place();
   node->file = file_;
   node->version = version_;
@@ -70,8 +71,9 @@ std::shared_ptr<const Node> Parser::read() {
   settle(*node);
   if (prototype != nullptr && prototype->root != nullptr) { node = instance_of(*prototype, *node); }
   if (node != nullptr && node->height > graph_limits.deepest) { fail_too_deep(node->place); }  // nested uses may exceed the depth
-  if (!name.empty() && ok()) { defined_[name] = node; }
-  return ok() ? node : nullptr;
+  if (!ok()) { return nullptr; }
+  for (const std::string& name : names) { defined_[name] = node; }
+  return node;
 }
 
 std::shared_ptr<const Node> Parser::used_node() {

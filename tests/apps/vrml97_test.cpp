@@ -99,3 +99,9 @@ TEST_CASE("VRML 97: what is wrong is told with its place, what is not known is p
   CHECK(noted(model.notes, "nodes of the type 'Odd' are not known: passed over, at line 2"));
   CHECK(noted(model.notes, "a Group has no field 'mine'"));
 }
+
+TEST_CASE("VRML: a node may be given two names, which the grammar does not allow") {
+  const apps::Model model = vrml97::read("DEF a # twice\nDEF b Shape { geometry Box { } } USE a USE b");
+  CHECK(model.objects.size() == 3);
+  CHECK(models::error("a.wrl", "#VRML V2.0 utf8\nDEF a DEF { }\n").find("expected a name after DEF") != std::string::npos);
+}
