@@ -68,8 +68,9 @@ std::string picture_of(const Lines& lines) {
   return name;
 }
 
-// Reads MTL, the materials of OBJ files, into the materials with the same names: Kd is the reflectance; Ke, the emitted radiance, becomes
-// the exitance pi Ke. Nothing in such a file is an error: whatever cannot be read is noted, and the material remains as it is.
+// Reads MTL, the materials of OBJ files, into the materials with the same names: Kd is the reflectance, Ks that as by a mirror; Ke, the
+// emitted radiance, becomes the exitance pi Ke. Nothing in such a file is an error: whatever cannot be read is noted, and the material
+// remains as it is.
 class ObjMaterials {
  public:
   ObjMaterials(std::vector<ModelMaterial>& materials, PolygonColors& colors, Notes& notes, const SideFile& side_file)
@@ -84,6 +85,7 @@ class ObjMaterials {
     ModelMaterial* material = nullptr;  // null: one that no face has
     Pictured pictured;
     std::map<ModelMaterial*, Opacity> opacities;
+    std::map<ModelMaterial*, Glow> glows;
     ++read_;
     Lines lines(*text, true, true);
     while (lines.next()) {
@@ -96,8 +98,8 @@ class ObjMaterials {
         if (material != nullptr) { defined_[found->second] = true; }
       } else if (bare || material == nullptr) {
         continue;
-      } else if (same_letters(word, "kd") || same_letters(word, "ke")) {
-        set_color(*material, lines, place);
+      } else if (same_letters(word, "kd") || same_letters(word, "ks") || same_letters(word, "ke") || same_letters(word, "ka")) {
+        set_color(*material, lines, place, glows[material]);
       } else if (same_letters(word, "map_kd") || same_letters(word, "map_ke")) {
         set_picture(*material, lines, place, pictured);
       } else if (same_letters(word, "d") || same_letters(word, "tr") || same_letters(word, "map_d")) {
@@ -106,6 +108,7 @@ class ObjMaterials {
     }
     leave_to_pictures(pictured);
     for (const auto& [of, opacity] : opacities) { set_opacity(*of, opacity); }
+    for (const auto& [of, glow] : glows) { set_glow(*of, glow); }
   }
 
   // To be called after all libraries.
@@ -143,6 +146,20 @@ class ObjMaterials {
     }
   };
 
+  // What a library says about the light of a material. Files from before Ke write it as Ka, which otherwise is a share of light, at most 1.
+  struct Glow {
+    bool told = false;  // by Ke
+    radiosity::Color ambient{0.0};
+    std::string place;  // of Ka
+  };
+
+  void set_glow(ModelMaterial& material, const Glow& given) {
+    const bool shares = radiosity::brightest(material.reflectance.value_or(radiosity::Color(0.0))) <= 1.0;
+    if (given.told || !shares || !(radiosity::brightest(given.ambient) > 1.0)) { return; }
+    material.emission = std::numbers::pi * given.ambient;
+    notes_.add("Ka above 1 is no share of light: taken as Ke, as what shines", given.place);
+  }
+
   void set_opacity(ModelMaterial& material, const Opacity& given) {
     material.opacity = given.picture ? 1.0 : given.d.value_or(1.0 - given.tr.value_or(0.0));
     if (given.picture || (material.opacity < 1.0 && material.opacity >= least_opacity)) {
@@ -150,15 +167,21 @@ class ObjMaterials {
     }
   }
 
-  void set_color(ModelMaterial& material, const Lines& lines, const std::string& place) {
+  void set_color(ModelMaterial& material, const Lines& lines, const std::string& place, Glow& glow) {
     const std::string_view word = lines.words()[0];
     const auto value = color(lines);
     if (!value) {
       notes_.add("expected one or three numbers from 0 on after " + std::string(word) + ": passed over", place);
     } else if (same_letters(word, "kd")) {
       material.reflectance = *value;
+    } else if (same_letters(word, "ks")) {
+      material.mirror = mirror_of_highlight(*value);
+    } else if (same_letters(word, "ka")) {
+      glow.ambient = *value;
+      glow.place = place;
     } else {
       material.emission = std::numbers::pi * *value;
+      glow.told = true;
     }
   }
 

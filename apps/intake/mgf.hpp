@@ -73,7 +73,7 @@ struct Chroma {  // CIE 1931
 struct Material {
   std::string name = "default";
   bool two_sided = true;
-  radiosity::Color reflectance{0.0}, emission{0.0};
+  radiosity::Color reflectance{0.0}, emission{0.0}, mirror{0.0};
   double diffused = 0.0, transmitted = 0.0;  // shares of the light that passes through: td, ts
   std::optional<std::uint32_t> number;       // its index in the model after its first use; a change resets it
 };
@@ -120,8 +120,7 @@ class Contexts {
   std::map<std::string, Value*, std::less<>> names_;
 };
 
-// The entities of MGF about colours and materials: c with cxy, cspec, cct, cmix; m with sides, rd, ed, td, ts. Mirrors are only
-// noted.
+// The entities of MGF about colours and materials: c with cxy, cspec, cct, cmix; m with sides, rd, rs, ed, td, ts.
 class Looks {
  public:
   Looks(Model& model, Notes& notes) : model_{model}, notes_{notes} {}

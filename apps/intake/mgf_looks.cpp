@@ -34,7 +34,10 @@ std::uint32_t Looks::material() {
   if (!current.number) {
     current.number = static_cast<std::uint32_t>(model_.materials.size());
     const double opacity = 1.0 - std::min(1.0, current.diffused + current.transmitted);
-    model_.materials.push_back({current.name, current.reflectance, current.emission, current.two_sided, opacity});
+    if (!radiosity::is_black(current.mirror) && !radiosity::is_black(current.reflectance)) {
+      notes_.add("what materials reflect as mirrors is left out", "in " + mesh_file::shown(current.name));
+    }
+    model_.materials.push_back({current.name, current.reflectance, current.emission, current.two_sided, opacity, current.mirror});
   }
   return *current.number;
 }
@@ -102,7 +105,8 @@ void Looks::emission(const Line& line, Errors& errors) {
 }
 
 void Looks::mirror(const Line& line, Errors& errors) {
-  if (number(line, 1, errors) != 0.0) { notes_.add("what materials reflect as mirrors is left out", at(line)); }
+  const double share = amount(line, 1, errors);
+  if (share >= 0.0) { changed().mirror = share * color_of(colors_.current().x, colors_.current().y); }
 }
 
 void Looks::transmittance(const Line& line, Errors& errors) {

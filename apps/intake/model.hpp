@@ -35,7 +35,14 @@ struct ModelMaterial {
   radiosity::Color emission{0.0};  // W/m2
   bool two_sided = false;          // does the file say that its surfaces are seen from both sides?
   double opacity = 1.0;            // share of the light that does not pass through
+  radiosity::Color mirror{0.0};    // share that is reflected as by a mirror
 };
+
+// The colour of highlights (Phong 1975) as a share that is reflected as by a mirror. Some programs write .5 for every material, black ones,
+// too: only more than that tells anything.
+[[nodiscard]] inline radiosity::Color mirror_of_highlight(const radiosity::Color& specular) {
+  return radiosity::brightest(specular) > 0.5 ? specular : radiosity::Color(0.0);
+}
 
 // Surfaces that let most light through, such as window panes, are left out of the scene (panes.hpp); others are taken as opaque.
 inline constexpr double least_opacity = 0.5;

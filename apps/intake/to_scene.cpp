@@ -20,6 +20,7 @@
 #include "apps/intake/added_light.hpp"
 #include "apps/intake/camera_up.hpp"
 #include "apps/intake/light_lamps.hpp"
+#include "apps/intake/materials.hpp"
 #include "apps/intake/open_rooms.hpp"
 #include "apps/intake/panes.hpp"
 #include "apps/text.hpp"
@@ -55,7 +56,7 @@ class SceneMaker {
     place(to_metres(up, options_.metres));
     sides_unknown_ = !model_.tells_sides;
     if (!part(faults)) { return std::nullopt; }
-    AddedLight added(file_, rooms_, "--lamp MATERIAL, one of " + list_of(names()), options_.camera.has_value());
+    AddedLight added(file_, rooms_, "--lamp MATERIAL, one of " + list_of(names_of(file_.scene.materials)), options_.camera.has_value());
     if (options_.lamps_wanted && !shines() && !added.light_model(faults)) { return std::nullopt; }
     if (options_.lamps_wanted && only_suns_ && !added.light_rooms_without_sun(faults)) { return std::nullopt; }
     added.look_for_light();
@@ -77,8 +78,9 @@ class SceneMaker {
  private:
   bool part(std::vector<std::string>& faults) {
     file_.notes = std::move(model_.notes);
-    take_materials();
-    if (!take_lamps(faults)) { return false; }
+    file_.scene.materials = scene_materials(model_, options_, whole_ && options_.lamps_wanted, file_.notes, faults);
+    if (!faults.empty()) { return false; }
+    for (const ModelMaterial& given : model_.materials) { two_sided_.push_back(given.two_sided ? 1 : 0); }
     if (!options_.opaque) { panes_ = Panes(model_, file_.scene.materials); }
     if (auto sentence = panes_.sentence(model_); !sentence.empty()) { note(std::move(sentence)); }
     const double vanishing = model_.objects.empty() ? 0.0 : least_size * model_size();  // before the polygons are taken out of the model
@@ -145,54 +147,6 @@ class SceneMaker {
   }
 
   void note(std::string sentence) { file_.notes.push_back(std::move(sentence)); }
-
-  void take_materials() {
-    std::size_t open = 0, bright = 0;
-    for (const ModelMaterial& given : model_.materials) {
-      radiosity::Material material{given.name, given.reflectance.value_or(radiosity::Color(options_.reflectance)), given.emission};
-      open += given.reflectance ? 0 : 1;
-      material.reflectance = glm::max(material.reflectance, radiosity::Color(0.0));
-      const double most = radiosity::brightest(material.reflectance);
-      bright += most > most_reflectance ? 1 : 0;
-      material.reflectance *= most > most_reflectance ? white_paint / most : 1.0;
-      file_.scene.materials.push_back(std::move(material));
-      two_sided_.push_back(given.two_sided ? 1 : 0);
-    }
-    if (open > 0) {
-      note(counted(open, "material has", "materials have") + " no reflectance: " + formatted("%g", options_.reflectance) +
-           " (--reflectance)");
-    }
-    if (bright > 0) {
-      note(counted(bright, "material reflects", "materials reflect") + " more than " + formatted("%g", most_reflectance) +
-           ", as no surface does: darkened to " + formatted("%g", white_paint) + ", like white paint");
-    }
-  }
-
-  // The names of the materials, each once, at most 1000.
-  [[nodiscard]] std::vector<std::string_view> names() const {
-    std::vector<std::string_view> list;
-    for (const radiosity::Material& material : file_.scene.materials) {
-      if (list.size() < 1000 && !contains(list, material.name)) { list.push_back(material.name); }
-    }
-    return list;
-  }
-
-  // A lamp that is not a material of the file is an error, because otherwise its absence would not be noticed.
-  bool take_lamps(std::vector<std::string>& faults) {
-    for (const Lamp& lamp : options_.lamps) {
-      const std::vector<std::string_view> known = names();
-      bool found = false;
-      for (radiosity::Material& material : file_.scene.materials) {
-        if (material.name != lamp.material) { continue; }
-        found = true;
-        material.emission = radiosity::Color(lamp.exitance);
-      }
-      if (found) { continue; }
-      faults.push_back("--lamp " + lamp.material + ": the file has no such material; it has " + list_of(known) +
-                       suggestion(lamp.material, known));
-    }
-    return faults.empty();
-  }
 
   void take_polygons() {
     if (model_.polygons() == 0) { return; }

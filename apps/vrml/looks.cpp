@@ -64,6 +64,7 @@ ModelMaterial Looks::made(const State& state, const Numbers& numbers, std::size_
   const glm::dvec3 mean = picture ? picture->mean() : glm::dvec3(1.0);
   const bool replaces = picture && texture->version == Version::v97 && !(mean.x == mean.y && mean.y == mean.z);
   material.reflectance = (replaces ? glm::dvec3(1.0) : color("diffuseColor", glm::dvec3(0.8))) * mean;
+  material.mirror = mirror_of_highlight(color("specularColor", glm::dvec3(0.0)));
   material.emission = std::numbers::pi * color("emissiveColor", glm::dvec3(0.0));
   if (const std::size_t n = values(state, "transparency", 1); n > 0) {
     const std::size_t first = numbers[0] < n ? numbers[0] : 0;

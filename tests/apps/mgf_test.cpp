@@ -248,7 +248,7 @@ TEST_CASE("mgf: what is wrong is told with its place, what is not read is told")
     INFO(text);
     CHECK(models::error("a.mgf", text).find(sentence) != std::string::npos);
   }
-  const apps::Model model = models::read("a.mgf", square + "ies lamp.ies\nrs .3 .1\nf a b \\\n c d\nring a 1 1\n");
+  const apps::Model model = models::read("a.mgf", square + "ies lamp.ies\nrd .2\nrs .3 .1\nf a b \\\n c d\nring a 1 1\n");
   CHECK(model.polygons() == 1);
   for (const std::string note : {"'ies' is not read", "mirrors", "without size"}) { CHECK(models::noted(model.notes, note)); }
 }

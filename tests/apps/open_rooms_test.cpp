@@ -163,6 +163,7 @@ TEST_CASE("without a lamp, too, a room with an open side is seen through that, t
     ++rooms;
     apps::ModelOptions options;
     options.up = apps::UpAxis::z;
+    options.lamps = {{"lamp", 0.0}};
     const apps::SceneFile file = models::scene("a.obj", room.obj, {}, options);
     CHECK(models::noted(file.notes, "put into a studio"));
     CAPTURE(round, room.open, room.size.x, room.size.y, room.size.z);
