@@ -73,8 +73,18 @@ void AddedLight::look_for_light() {
 
 void AddedLight::choose_view(const LightViews& views) {
   auto inside = views.inside();
-  const double light = views.usual_light(inside), usual = views.shown_share(radiosity::automatic_camera(file_.scene), light);
-  if (usual >= LightViews::little_light) { return; }
+  const radiosity::Camera automatic = radiosity::automatic_camera(file_.scene);
+  const double light = views.usual_light(inside), usual = views.shown_share(automatic, light);
+  const auto stand_inside = [&] {
+    note("from outside little is seen of its light: the camera stands in the room of a lamp");
+    file_.cameras.push_back(std::move(inside->camera));
+  };
+  if (usual >= LightViews::little_light) {
+    const bool lit = inside && views.lit_share(inside->camera) >= LightViews::much_light;
+    const double bright = lit ? views.bright_share(inside->camera, light) : 0.0;
+    if (bright >= std::max(LightViews::nearly_all, LightViews::many_times * views.bright_share(automatic, light))) { stand_inside(); }
+    return;
+  }
   double most = usual;
   radiosity::Camera best;
   for (const radiosity::Camera& camera : radiosity::outside_cameras(file_.scene)) {
@@ -84,9 +94,9 @@ void AddedLight::choose_view(const LightViews& views) {
       best = camera;
     }
   }
-  if (inside && views.shown_share(inside->camera, light) >= std::max(LightViews::tol_dark, LightViews::much_more * most)) {
-    note("from outside little is seen of its light: the camera stands in the room of a lamp");
-    file_.cameras.push_back(std::move(inside->camera));
+  const bool lantern = inside && most >= LightViews::tol_dark && views.lamp_share(inside->camera) > LightViews::in_lantern;
+  if (inside && !lantern && views.shown_share(inside->camera, light) >= std::max(LightViews::tol_dark, LightViews::much_more * most)) {
+    stand_inside();
   } else if (most >= LightViews::much_light) {
     note("the camera stands outside, on the side from which most of its light is seen");
     file_.cameras.push_back(std::move(best));
@@ -156,12 +166,16 @@ bool AddedLight::light_model(std::vector<std::string>& faults) {
   const std::vector<raycast::Box> closed = closed_rooms();
   if (!closed.empty()) { return add_room_lamps(closed) || refused(faults); }
   std::vector<raycast::Box> rooms = rooms_of_cameras();
+  bool hidden = false;
   if (file_.cameras.empty()) {
-    if (const auto hidden = OpenRooms(file_.scene).hidden()) { rooms.push_back(hidden->bounds); }
+    const OpenRooms open(file_.scene);
+    const auto room = open.hidden();
+    hidden = room.has_value();
+    rooms = hidden ? std::vector{room->bounds} : open.seen_through();
   }
   if (!add_room_lamps(rooms)) {
     add_studio();
-  } else if (file_.cameras.empty()) {
+  } else if (hidden) {
     if (auto inside = LightViews(file_.scene).inside()) {
       note("from outside little is seen of what is in this room: the camera stands in it");
       file_.cameras.push_back(std::move(inside->camera));

@@ -120,6 +120,20 @@ double LightViews::shown(const Seen& of, double usual) const {
 
 double LightViews::shown_share(const radiosity::Camera& camera, double usual) const { return shown(seen(camera, fine), usual); }
 
+double LightViews::bright_share(const radiosity::Camera& camera, double usual) const {
+  const Seen of = seen(camera, fine);
+  return of.met * shown(of, usual);
+}
+
+double LightViews::lamp_share(const radiosity::Camera& camera) const {
+  const Seen of = seen(camera, fine);
+  if (of.points.empty()) { return 0.0; }
+  const auto lamps = std::ranges::count_if(of.points, [&](const raycast::ScenePoint& at) {
+    return shine_.contains({at.object, at.sheet});
+  });
+  return static_cast<double>(lamps) / static_cast<double>(of.points.size());
+}
+
 double LightViews::usual_light(const std::optional<Chosen>& inside) const {
   if (!light_ || !inside) { return 0.0; }
   return std::min(light_->usual(), share_below(light(seen(inside->camera, fine).points, reflections).reflected, 0.5));

@@ -35,8 +35,11 @@ class LightViews {
   static constexpr double tol_dark = 0.02;
   // Seen from outside, a house shows its light only through some windows. If less than `little_light` of what the automatic view sees is
   // shown, a view from inside replaces it, if that shows at least `much_more` times as large a part of what it sees as any from outside;
-  // else a view from another side, if it shows `much_light`.
-  static constexpr double little_light = 0.4, much_light = 0.5, much_more = 1.5;
+  // else a view from another side, if it shows `much_light`. A corridor with an open end shows much light there, but in a small part of the
+  // picture: a view from inside replaces that, too, if `nearly_all` of its pixels show light, and `many_times` more than from outside.
+  static constexpr double little_light = 0.4, much_light = 0.5, much_more = 1.5, nearly_all = 0.8, many_times = 6.0;
+  // A view from inside that shows more lamp than this stands in a lantern, not in a room.
+  static constexpr double in_lantern = 0.5;
 
   explicit LightViews(const radiosity::Scene& scene);
 
@@ -46,6 +49,10 @@ class LightViews {
 
   // The same of what the picture will show as more than black; `usual`: the light of the scene, as usual_light() tells it.
   [[nodiscard]] double shown_share(const radiosity::Camera& camera, double usual) const;
+  // The share of the pixels that show it.
+  [[nodiscard]] double bright_share(const radiosity::Camera& camera, double usual) const;
+  // Of what a camera sees the share that are lamps.
+  [[nodiscard]] double lamp_share(const radiosity::Camera& camera) const;
 
   struct Chosen {
     radiosity::Camera camera;

@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include <glm/vector_relational.hpp>
+
 #include <raycast/ray.hpp>
 
 #include <radiosity/camera/view.hpp>
@@ -18,6 +20,24 @@ namespace {
 
 constexpr double most_open = 0.1;  // a doorway covers a few hundredths of what is seen, a wall or a ceiling that is not there a sixth
 constexpr double open_beside_door = 0.25;
+
+// The fronts that a picture shows: a coarse one, but for meshes of faces so small that more rays show more of them.
+OpenRooms::Surfaces shown_by(const raycast::Scene& objects, const radiosity::Camera& camera) {
+  constexpr std::uint32_t coarse = 24, fine = 96;
+  for (std::uint32_t across = coarse;; across *= 2) {
+    const radiosity::View view = radiosity::make_view(camera, {across, across * 3 / 4});
+    OpenRooms::Surfaces shown;
+    std::size_t hits = 0;
+    for (std::uint32_t i = 0; i < view.size.width * view.size.height; ++i) {
+      raycast::Segment ray{view.eye, view.direction(i % view.size.width + 0.5, i / view.size.width + 0.5)};
+      const auto hit = radiosity::seen_front(objects, ray);
+      if (!hit) { continue; }
+      shown.emplace(hit->object, hit->sheet);
+      ++hits;
+    }
+    if (across >= fine || 2 * shown.size() < hits) { return shown; }
+  }
+}
 
 }  // namespace
 
@@ -81,13 +101,7 @@ std::optional<OpenRooms::Hidden> OpenRooms::hidden() const {
   constexpr double least_height = 0.2;  // of the ceiling above the eye, of the model's height: not the next floor of a house, or a shelf
   std::size_t outside = 0;
   for (const radiosity::Camera& camera : radiosity::outside_cameras(scene_)) {
-    const radiosity::View view = radiosity::make_view(camera, {24, 18});
-    Surfaces seen;
-    for (std::uint32_t i = 0; i < view.size.width * view.size.height; ++i) {
-      raycast::Segment ray{view.eye, view.direction(i % view.size.width + 0.5, i / view.size.width + 0.5)};
-      if (const auto hit = radiosity::seen_front(objects_, ray)) { seen.emplace(hit->object, hit->sheet); }
-    }
-    outside = std::max(outside, seen.size());
+    outside = std::max(outside, shown_by(objects_, camera).size());
   }
   const raycast::Box bounds = radiosity::bounds_without_strays(scene_);
   std::optional<Hidden> room;
@@ -103,6 +117,36 @@ std::optional<OpenRooms::Hidden> OpenRooms::hidden() const {
     room = {eye, inside.bounds};
   }
   return room;
+}
+
+std::vector<raycast::Box> OpenRooms::seen_through() const {
+  const radiosity::View view = radiosity::make_view(radiosity::automatic_camera(scene_), {24, 18});
+  std::size_t fronts = 0, through = 0;
+  for (std::uint32_t i = 0; i < view.size.width * view.size.height; ++i) {
+    raycast::Segment ray{view.eye, view.direction(i % view.size.width + 0.5, i / view.size.width + 0.5)};
+    if (!radiosity::seen_front(objects_, ray)) { continue; }
+    (ray.origin == view.eye ? fronts : through) += 1;
+  }
+  std::vector<raycast::Box> rooms;
+  if (through <= fronts) { return rooms; }
+  const raycast::Box bounds = radiosity::bounds_without_strays(scene_);
+  constexpr int across = 5;
+  constexpr double least_share = 0.25;   // of the model's extents: not the gap above a cupboard
+  constexpr double most_exposed = 0.15;  // of the places: light comes in through an open side, where half of them are exposed
+  int in_air = 0, exposed = 0;
+  for (int i = 0; i < across * across * across; ++i) {
+    const glm::dvec3 share{(i % across + 0.5) / across, (i / across % across + 0.5) / across, (i / across / across + 0.5) / across};
+    const glm::dvec3 eye = bounds.lo + share * bounds.size();
+    const Around here = look_around(eye);
+    if (here.shown < 1.0 - most_open - here.open) { continue; }
+    ++in_air;
+    exposed += here.open > most_open ? 1 : 0;
+    const bool known = std::ranges::any_of(rooms, [&](const raycast::Box& room) { return room.contains(eye); });
+    const bool small = glm::any(glm::lessThan(here.bounds.size(), least_share * bounds.size()));
+    if (!known && !small && is_room(here)) { rooms.push_back(here.bounds); }
+  }
+  if (exposed > most_exposed * in_air) { rooms.clear(); }
+  return rooms;
 }
 
 }  // namespace apps

@@ -7,6 +7,7 @@
 #include <optional>
 #include <set>
 #include <utility>
+#include <vector>
 
 #include <glm/vec3.hpp>
 
@@ -32,6 +33,10 @@ class OpenRooms {
   // A room that nobody sees from outside: from a place in it, at least three times as many surfaces are seen as from any side outside,
   // nearly all of them from the front, but for a roof. A box with furniture is one; a house that has more to show outside is not.
   [[nodiscard]] std::optional<Hidden> hidden() const;
+
+  // The bounds of rooms whose walls are given from inside alone, if most of what the automatic view shows is seen through the backs of
+  // surfaces: as in a doll's house, which light from outside does not reach. Nothing if they are open to it.
+  [[nodiscard]] std::vector<raycast::Box> seen_through() const;
 
   using Surfaces = std::set<std::pair<std::uint32_t, std::uint32_t>>;  // object and sheet
   // The open surfaces of a roof over the room around this point, if it shows its back there, as a roof that was given from outside alone.

@@ -7,7 +7,9 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <numbers>
 #include <random>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -130,5 +132,78 @@ TEST_CASE("a furnished room without a lamp or a camera is lit, and seen from ins
     const glm::dvec3 eye = file->cameras.front().eye / scale;
     CHECK((eye.x > 0.0 && eye.x < room.x && eye.y > 0.0 && eye.y < room.y && eye.z > 0.0 && eye.z < room.z) == furnished);
     CHECK(apps::LightViews(file->scene).lit_share(file->cameras.front()) > 0.3);
+  }
+}
+
+// Bellied vessels with thick walls and a narrow mouth. From within, each direction meets a face of its own; so does each ray from outside,
+// if there are as many.
+TEST_CASE("a vessel of many small faces is no furnished room") {
+  const unsigned seed = test::seed();
+  INFO("seed " << seed);
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  for (int round = 0; round < 8; ++round) {
+    const double scale = std::exp(8.0 * unit(random) - 4.0), height = 2.0 + 2.0 * unit(random), thick = 0.05 + 0.05 * unit(random);
+    constexpr std::uint32_t around = 40, along = 60;
+    std::vector<glm::dvec2> profile{{0.0, 0.0}};  // radius and height: up outside, down inside
+    const auto belly = [&](double t) { return 0.2 + std::sin(std::numbers::pi * (0.1 + 0.9 * t)); };
+    for (std::uint32_t i = 0; i <= along; ++i) { profile.push_back({belly(1.0 * i / along), height * i / along}); }
+    for (std::uint32_t i = along + 1; i-- > 1;) { profile.push_back({belly(1.0 * i / along) - thick, height * i / along}); }
+    profile.push_back({0.0, height / along});
+    apps::Model model;
+    model.groups = {"vessel"};
+    model.materials = {{"clay", radiosity::Color(0.5)}};
+    for (const glm::dvec2& p : profile) {
+      for (std::uint32_t k = 0; k < around; ++k) {
+        const double angle = 2.0 * std::numbers::pi * k / around;
+        model.positions.push_back(scale * glm::dvec3(p.x * std::cos(angle), p.x * std::sin(angle), p.y));
+      }
+    }
+    for (std::uint32_t i = 0; i + 1 < profile.size(); ++i) {
+      for (std::uint32_t k = 0; k < around; ++k) {
+        const std::uint32_t a = i * around + k, b = i * around + (k + 1) % around;
+        model.polygon(std::array{a, b, b + around, a + around}, 0, 0);
+      }
+    }
+    std::vector<std::string> faults;
+    const auto file = apps::to_scene(std::move(model), apps::UpAxis::z, {}, faults);
+    REQUIRE(file);
+    CHECK(models::noted(file->notes, "put into a studio"));
+  }
+}
+
+// Of the walls the viewer sees the insides, through the backs of those before them; the light of a studio would not pass.
+TEST_CASE("a room whose walls are given from inside alone is lit inside, though it has a doorway") {
+  const unsigned seed = test::seed();
+  INFO("seed " << seed);
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  for (int round = 0; round < 8; ++round) {
+    const double scale = std::exp(6.0 * unit(random) - 3.0);
+    const glm::dvec3 room = scale * glm::dvec3(4.0 + 3.0 * unit(random), 4.0 + 3.0 * unit(random), 2.3 + unit(random));
+    CAPTURE(round, scale, room.x, room.y, room.z);
+    apps::Model closed, model;
+    houses::add_box(closed, {0, 0, 0}, room, true);
+    model.groups = {"room"};
+    model.materials = {{"grey", radiosity::Color(0.5)}};
+    model.positions = closed.positions;
+    for (std::uint32_t p = 0; p < closed.polygons(); ++p) {
+      const std::span<const std::uint32_t> corners = std::span(closed.corners).subspan(closed.first_corner[p], 4);
+      const bool wall = std::ranges::all_of(corners, [&](std::uint32_t c) { return closed.positions[c].y == 0.0; });
+      if (!wall) { model.polygon(corners, 0, 0); }
+    }
+    const double door = (0.5 + 0.3 * unit(random)) * room.x, width = 0.15 * room.x;
+    for (const auto& [from, to] : {std::pair{0.0, door}, std::pair{door + width, room.x}}) {
+      const auto first = static_cast<std::uint32_t>(model.positions.size());
+      for (const glm::dvec3& p : {glm::dvec3(from, 0, 0), {from, 0, room.z}, {to, 0, room.z}, {to, 0, 0}}) { model.positions.push_back(p); }
+      model.polygon(std::array{first, first + 1, first + 2, first + 3}, 0, 0);
+    }
+    houses::add_box(model, 0.3 * room * glm::dvec3(1, 1, 0), room * glm::dvec3(0.5, 0.5, 0.4), false);
+    std::vector<std::string> faults;
+    const auto file = apps::to_scene(std::move(model), apps::UpAxis::z, {}, faults);
+    REQUIRE(file);
+    CHECK(models::noted(file->notes, "under its ceiling"));
+    const radiosity::Camera camera = file->cameras.empty() ? radiosity::automatic_camera(file->scene) : file->cameras.front();
+    CHECK(apps::LightViews(file->scene).lit_share(camera) > 0.5);
   }
 }

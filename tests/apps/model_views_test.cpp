@@ -7,6 +7,7 @@
 #include <numbers>
 #include <optional>
 #include <random>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -84,6 +85,52 @@ TEST_CASE("a house that shows its light from outside through windows alone is lo
     CHECK((eye.x > 0.0 && eye.x < 6.0 && eye.y > 0.0 && eye.y < 4.0 && eye.z > 0.0 && eye.z < 2.5));
     CHECK(apps::LightViews(file->scene).lit_share(file->cameras[0]) > 0.5);
   }
+}
+
+// Walls seen from both sides, as many formats have them: the outside is black, and through the open end much of what is seen is lit.
+TEST_CASE("a corridor with an open end is looked at from within, a niche through its opening") {
+  for (const double length : {3.0, 6.0}) {
+    CAPTURE(length);
+    apps::Model model;
+    model.groups = {"corridor", "lamp"};
+    model.materials = {{"grey", radiosity::Color(0.5), radiosity::Color(0.0), true},
+                       {"lamp", radiosity::Color(0.0), radiosity::Color(10.0)}};
+    add_box(model, {0, 0, 0}, {3, length, 3}, true);
+    const auto at_end = [&](std::uint32_t corner) { return model.positions[corner].y == 0.0; };
+    apps::Model open;
+    open.positions = model.positions;
+    open.groups = model.groups;
+    open.materials = model.materials;
+    for (std::size_t p = 0; p < model.polygons(); ++p) {
+      const std::span<const std::uint32_t> corners = std::span(model.corners).subspan(model.first_corner[p], 4);
+      if (!std::ranges::all_of(corners, at_end)) { open.polygon(corners, 0, 0); }
+    }
+    add_box(open, {1, 0.3 * length, 2.8}, {2, 0.6 * length, 2.9}, false, 1);
+    std::vector<std::string> faults;
+    const auto file = apps::to_scene(std::move(open), apps::UpAxis::z, {}, faults);
+    REQUIRE(file);
+    REQUIRE(file->cameras.size() <= 1);
+    const bool within = !file->cameras.empty() && raycast::Box{{0, 0, 0}, {3, length, 3}}.contains(file->cameras[0].eye);
+    CHECK(within == (length > 5.0));
+  }
+}
+
+// A block of stone with a chamber on it that a lamp nearly fills, behind windows and under a roof.
+TEST_CASE("a stone lantern is looked at from outside, not from within its chamber") {
+  apps::Model model;
+  model.groups = {"stone", "lamp"};
+  model.materials = {{"stone", radiosity::Color(0.5)}, {"lamp", radiosity::Color(0.5), radiosity::Color(100.0)}};
+  add_box(model, {0, 0, 0}, {1, 1, 2.4}, false);
+  add_box(model, {-0.2, -0.2, 3}, {1.2, 1.2, 3.3}, false);
+  for (const double x : {0.0, 0.7}) {
+    for (const double y : {0.0, 0.7}) { add_box(model, {x, y, 2.4}, {x + 0.3, y + 0.3, 3}, false); }
+  }
+  add_box(model, {0.31, 0.31, 2.45}, {0.69, 0.69, 2.95}, false, 1);
+  std::vector<std::string> faults;
+  const auto file = apps::to_scene(std::move(model), apps::UpAxis::z, {}, faults);
+  REQUIRE(file);
+  const glm::dvec3 middle{0.5, 0.5, 2.7};
+  CHECK((file->cameras.empty() || glm::length(file->cameras[0].eye - middle) > 2.0));
 }
 
 // Flat boxes close under the ceiling, as ceiling lamps are, over furniture.
