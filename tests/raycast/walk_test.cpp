@@ -164,3 +164,30 @@ TEST_CASE("what is put off comes back by distance, nearest first, above what lay
 }
 
 }  // namespace
+
+// On a grid of integers, where the corners of boxes often coincide.
+TEST_CASE("two boxes meet where they have a point in common, and one contains another where it has all its points") {
+  const auto seed = test::seed();
+  INFO("seed " << seed);
+  std::mt19937_64 random(seed);
+  std::uniform_int_distribution<int> place(0, 4);
+  const auto corner = [&] { return glm::dvec3(place(random), place(random), place(random)); };
+  for (int round = 0; round < 5000; ++round) {
+    Box a, b;
+    for (Box* const box : {&a, &b}) {
+      box->extend(corner());
+      box->extend(corner());
+    }
+    bool common = false, all = true;
+    for (int i = 0; i < 125; ++i) {
+      const glm::dvec3 p(i % 5, i / 5 % 5, i / 25);
+      common = common || (a.contains(p) && b.contains(p));
+      all = all && (a.contains(p) || !b.contains(p));
+    }
+    CHECK(a.meets(b) == common);
+    CHECK(b.meets(a) == common);
+    CHECK(a.contains(b) == all);
+    CHECK(a.meets(b, 1.0) == a.grown(1.0).meets(b));
+    CHECK_FALSE(a.meets(Box()));
+  }
+}
