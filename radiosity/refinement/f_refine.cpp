@@ -126,6 +126,14 @@ struct FRefinement {
   return split.leaf() && small ? Decision::link : answer;
 }
 
+// Is this a patch that reflects nothing, larger than all that reflects? Two of them are linked as they are, for nothing of what they exchange
+// is seen: the sides of a black sky hundreds of times as wide as what it contains would otherwise be split for each other's sake down to
+// the smallest patch of that.
+[[nodiscard]] HALFLIGHT_INLINE bool of_black_sky(const FRefinement& state, std::uint32_t i) {
+  const Node& node = state.scene.hierarchy[i];
+  return !node.is_cluster() && node.area > state.light.scene_area() && is_black(state.scene.reflectance[node.surface]);
+}
+
 // The decision about each open pair; meaningless after cancellation.
 HALFLIGHT_INLINE std::vector<Decision> ask_oracles(FRefinement& state) {
   DiscreteScene& scene = state.scene;
@@ -141,6 +149,7 @@ HALFLIGHT_INLINE std::vector<Decision> ask_oracles(FRefinement& state) {
         const Decision proven = state.proofs(question);
         if (state.measured.takes_whole_lamp({p, q})) { return proven; }
         if (proven != Decision::link) { return proven; }
+        if (of_black_sky(state, p) && of_black_sky(state, q)) { return Decision::link; }
         const bool of_lamps = !scene.clustered() && (scene.hierarchy[p].is_cluster() || scene.hierarchy[q].is_cluster());
         return within_min_area(question, of_lamps ? LampOracle{}(question) : state.fineness.oracle(question));
       },

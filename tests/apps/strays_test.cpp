@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <random>
 #include <string>
 
 #include <glm/geometric.hpp>
 
+#include <radiosity/radiosity.hpp>
 #include <radiosity/scene/bounds.hpp>
 
 #include "catch.hpp"
@@ -69,5 +71,38 @@ TEST_CASE("a row of things ever farther apart, and few things, have no forgotten
     const apps::SceneFile file = scene("a.obj", model);
     CHECK_FALSE(noted(file.notes, "outside of the studio"));
     CHECK(radiosity::bounds_without_strays(file.scene).diameter() == radiosity::scene_bounds(file.scene).diameter());
+  }
+}
+
+// A shell that shines, seen from what it contains, looks the same at any size.
+TEST_CASE("a solid around all else is a sky seen from within, and brought near where it is far larger, or left out if it does not shine") {
+  const auto file_of = [](double size, const std::string& shape, const std::string& looks, const std::string& more = "") {
+    return scene("a.wrl",
+                 "#VRML V2.0 utf8\nShape { appearance Appearance { material Material { diffuseColor .5 .5 .5 } } geometry Box { "
+                 "size 2 1 2 } }\nTransform { scale " +
+                     std::to_string(size) + " " + std::to_string(size) + " " + std::to_string(size) +
+                     " children Shape { appearance Appearance { material Material { " + looks + " } } geometry " + shape + " } }" + more);
+  };
+  const std::string sky = "emissiveColor 1 1 1 diffuseColor 0 0 0", stone = "diffuseColor .5 .5 .5";
+  for (const std::string shape : {"Box { }", "Sphere { }", "Cylinder { }"}) {
+    for (const double size : {5.0, 10.0, 300.0, 5e3, 1e6, 1e9, 1e14}) {
+      CAPTURE(shape, size);
+      const apps::SceneFile file = file_of(size, shape, sky);
+      CHECK(noted(file.notes, "seen from within"));
+      CHECK(noted(file.notes, "brought near") == (size > 4e3));
+      CHECK(radiosity::scene_bounds(file.scene).diameter() < 4e3);
+      const radiosity::Outcome outcome = radiosity::solve(file.scene, {.audit_points = 0, .threads = 1});
+      REQUIRE(outcome.solution);
+      std::size_t lit = 0;
+      for (const radiosity::SurfaceMean& surface : outcome.solution->audit.surfaces) {
+        lit += surface.radiosity.x == Approx(0.5 * std::numbers::pi).epsilon(0.01) ? 1 : 0;
+      }
+      CHECK(lit == 6);
+      CHECK(noted(file_of(size, shape, stone).notes, "left out, for it is too far away") == (size > 9.0));
+    }
+    // Not where a camera stands outside, or something does.
+    CHECK_FALSE(noted(file_of(10.0, shape, sky, "\nViewpoint { position 0 0 100 }").notes, "encloses"));
+    CHECK_FALSE(
+        noted(file_of(10.0, shape, sky, "\nTransform { translation 0 9.9 0 children Shape { geometry Sphere { } } }").notes, "encloses"));
   }
 }
