@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <memory>
 #include <numbers>
@@ -46,10 +47,24 @@ class MaterialReader {
       notes_.add("materials that let light through are taken as opaque", place);
     }
     material.two_sided = given["doubleSided"].boolean();
+    if (draws_outlines(material)) {
+      notes_.add("dark shells that draw outlines, around things and turned inside out, are taken as panes", place);
+      material.opacity = 0.0;
+    }
     return material;
   }
 
  private:
+  // Is it one of the shells that draw the outlines of cartoons? One sees them only behind the things that they enclose, but in light they
+  // would hide these.
+  static bool draws_outlines(const ModelMaterial& material) {
+    constexpr double dark = 0.1;
+    std::string small = material.name;
+    std::ranges::transform(small, small.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return !material.two_sided && small.find("outline") != std::string::npos && material.reflectance &&
+           radiosity::brightest(*material.reflectance) < dark && radiosity::is_black(material.emission);
+  }
+
   // The share of light that passes through a surface without being refracted twice, as through a body of glass (KHR_materials_volume).
   static double transmission(const JsonValue& given) {
     return given["extensions"]["KHR_materials_transmission"]["transmissionFactor"].number(0.0);

@@ -149,6 +149,7 @@ void PolygonColors::apply(Model& model, Notes& notes) {
     const auto [place, is_new] = known.emplace(std::tuple{m, reflected, emitted}, static_cast<std::uint32_t>(model.materials.size()));
     if (is_new) {
       ModelMaterial material = model.materials[m];
+      material.mirror = radiosity::Color(0.0);  // what is black in a picture is no mirror
       material.reflectance = material.reflectance.value_or(radiosity::Color(1.0)) * color_of(reflected, steps(0));
       material.emission *= color_of(emitted, steps(1));
       model.materials.push_back(std::move(material));

@@ -88,6 +88,17 @@ TEST_CASE("glTF: what lets most light through is left out, what holds most of it
             .there);  // a lamp
 }
 
+TEST_CASE("glTF: dark one-sided shells called outlines are left out, whatever else is called so is not") {
+  const auto left = [](const std::string& name, const std::string& color, const std::string& more) {
+    return !seen("{\"name\": \"" + name + "\", \"pbrMetallicRoughness\": {\"baseColorFactor\": [" + color + ", 1]}" + more + "}").there;
+  };
+  CHECK(left("outline", "0.01, 0.01, 0.02", ""));
+  CHECK(left("Hero_Outline.001", "0, 0, 0", ", \"doubleSided\": false"));
+  CHECK_FALSE(left("outline", "0.5, 0, 0", ""));
+  CHECK_FALSE(left("outline", "0, 0, 0", ", \"doubleSided\": true"));
+  CHECK_FALSE(left("out", "0, 0, 0", ""));
+}
+
 TEST_CASE("OBJ: d is opacity, Tr what it lacks, with both, d counts, and with a picture nothing is left out") {
   const auto taken = [](const std::string& words) {
     return scene("a.obj", two_squares("a.mtl"), {{"a.mtl", "newmtl glass\nKd 1 1 1\n" + words + "newmtl wall\nKd 0.5\n"}});
