@@ -188,7 +188,7 @@ std::optional<radiosity::Camera> LightViews::across_room(glm::dvec3 middle) cons
     most = std::max(most, fronts);
     views.push_back({std::move(camera), way, fronts});
   }
-  constexpr double as_good = 0.95;
+  constexpr double as_good = 0.97;
   const Across* best = nullptr;
   for (const Across& view : views) {
     if (view.fronts >= as_good * most && (best == nullptr || view.way > best->way)) { best = &view; }
