@@ -55,6 +55,18 @@ std::uint64_t peak_of_scene(const radiosity::Scene& scene, Options options) {
   return none.peak;
 }
 
+// A limit with which the run ends with coarser thresholds: between one that refuses it and one that suffices. 0 if none is found.
+std::uint64_t limit_that_coarsens(const radiosity::Scene& scene, Options options, std::uint64_t refuses, std::uint64_t suffices) {
+  while (suffices - refuses > 1) {
+    const std::uint64_t middle = refuses + (suffices - refuses) / 2;
+    options.memory = middle;
+    const Outcome outcome = radiosity::solve(scene, options);
+    if (outcome.solution && outcome.solution->audit.coarsened) { return middle; }
+    (outcome.solution ? suffices : refuses) = middle;
+  }
+  return 0;
+}
+
 }  // namespace
 
 TEST_CASE("memory limit of F-refinement: the best that fits, finer with more memory, never exceeded") {
@@ -71,8 +83,10 @@ TEST_CASE("memory limit of F-refinement: the best that fits, finer with more mem
     all.push_back(10'000);     // less than its patches take
     all.push_back(1'090'000);  // where tables of few rows once took .4 % more
     for (int i = 0; i < 10; ++i) { all.push_back(of_scene / 2 + random() % (3 * whole.peak)); }
-    for (int i = 0; i < 16; ++i) { all.push_back(of_scene + random() % (2 * whole.peak - of_scene)); }  // where it is coarsened
+    all.push_back(limit_that_coarsens(scene, options, of_scene / 2, 3 * whole.peak));
+    for (int i = 0; i < 6; ++i) { all.push_back(of_scene + random() % (2 * whole.peak - of_scene)); }
     std::sort(all.begin(), all.end());
+    REQUIRE(all[0] > 0);
     bool refused = false, coarsened = false;
     double epsilon = 2.0;
     for (const std::uint64_t limit : all) {
