@@ -140,6 +140,7 @@ class SceneMaker {
   // of times as large the rest would be lost in rounding: it is made smaller around the rest, where it looks the same.
   void take_enclosure() {
     constexpr double much_larger = 10.0, too_far = 1000.0, far = 100.0;  // relative to the size of all else
+    constexpr double of_speck = 1e5;                                     // it is not the model then, but a speck in it
     raycast::Box rest = polygon_bounds();
     std::vector<raycast::Box> boxes;
     std::size_t largest = 0;
@@ -166,6 +167,7 @@ class SceneMaker {
     };
     if (!boxes[largest].contains(rest) || !std::all_of(points.begin(), points.end(), within)) { return; }
     const double times = boxes[largest].diameter() / rest.diameter();
+    if (!(times < of_speck)) { return; }
     std::string sentence = "'" + shell.name + "' encloses all else";
     if (times > much_larger) { sentence += ", which is " + formatted("%.2g", times) + " times smaller"; }
     if (times > (shell.placement.inside ? too_far : much_larger) && !radiosity::shines(file_.scene, shell)) {
