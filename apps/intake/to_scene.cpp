@@ -135,9 +135,9 @@ class SceneMaker {
     return box.diameter();
   }
 
-  // A solid that encloses all else, cameras too, is seen from within, as a sky or a room is; from outside nothing else would be seen. If it is
-  // much larger and does not shine, it is a sky that sends hardly any light back, and is left out. Beside one that shines and is thousands
-  // of times as large the rest would be lost in rounding: it is made smaller around the rest, where it looks the same.
+  // A solid that encloses all else, cameras too, is seen from within, as a sky or a room is; from outside nothing else would be seen. If it
+  // is much larger and does not shine, it is a sky that sends hardly any light back, and is left out. Beside one that shines and is
+  // thousands of times as large the rest would be lost in rounding: it is made smaller around the rest, where it looks the same.
   void take_enclosure() {
     constexpr double much_larger = 10.0, too_far = 1000.0, far = 100.0;  // relative to the size of all else
     constexpr double of_speck = 1e5;                                     // it is not the model then, but a speck in it

@@ -126,9 +126,9 @@ struct FRefinement {
   return split.leaf() && small ? Decision::link : answer;
 }
 
-// Is this a patch that reflects nothing, larger than all that reflects? Two of them are linked as they are, for nothing of what they exchange
-// is seen: the sides of a black sky hundreds of times as wide as what it contains would otherwise be split for each other's sake down to
-// the smallest patch of that.
+// Is this a patch that reflects nothing, larger than all that reflects? Two of them are linked as they are, for nothing of what they
+// exchange is seen: the sides of a black sky hundreds of times as wide as what it contains would otherwise be split for each other's sake
+// down to the smallest patch of that.
 [[nodiscard]] HALFLIGHT_INLINE bool of_black_sky(const FRefinement& state, std::uint32_t i) {
   const Node& node = state.scene.hierarchy[i];
   return !node.is_cluster() && node.area > state.light.scene_area() && is_black(state.scene.reflectance[node.surface]);
