@@ -12,7 +12,6 @@
 #include <brep/finite.hpp>
 
 #include <raycast/box.hpp>
-#include <raycast/spans.hpp>
 #include <raycast/transform.hpp>
 
 #include <radiosity/intake/intake.hpp>
@@ -20,6 +19,7 @@
 
 #include "apps/intake/added_light.hpp"
 #include "apps/intake/camera_up.hpp"
+#include "apps/intake/enclosure.hpp"
 #include "apps/intake/light_lamps.hpp"
 #include "apps/intake/materials.hpp"
 #include "apps/intake/open_rooms.hpp"
@@ -84,7 +84,9 @@ class SceneMaker {
     for (const ModelMaterial& given : model_.materials) { two_sided_.push_back(given.two_sided ? 1 : 0); }
     if (!options_.opaque) { panes_ = Panes(model_, file_.scene.materials); }
     if (auto sentence = panes_.sentence(model_); !sentence.empty()) { note(std::move(sentence)); }
-    if (whole_) { take_enclosure(); }
+    if (whole_) {
+      if (auto sentence = take_enclosure(model_, panes_, file_); !sentence.empty()) { note(std::move(sentence)); }
+    }
     const double vanishing = model_.objects.empty() ? 0.0 : least_size * model_size();  // before the polygons are taken out of the model
     take_polygons();
     std::size_t vanished = 0;
@@ -121,68 +123,13 @@ class SceneMaker {
     return true;
   }
 
-  [[nodiscard]] raycast::Box polygon_bounds() const {
+  [[nodiscard]] double model_size() const {
     raycast::Box box;
     for (const std::uint32_t corner : model_.corners) {
       if (corner < model_.positions.size() && brep::is_finite(model_.positions[corner])) { box.extend(model_.positions[corner]); }
     }
-    return box;
-  }
-
-  [[nodiscard]] double model_size() const {
-    raycast::Box box = polygon_bounds();
     for (const radiosity::SceneObject& object : model_.objects) { box.extend(radiosity::placed_bounds(*object.shape, object.placement)); }
     return box.diameter();
-  }
-
-  // A solid that encloses all else, cameras too, is seen from within, as a sky or a room is; from outside nothing else would be seen. If it
-  // is much larger and does not shine, it is a sky that sends hardly any light back, and is left out. Beside one that shines and is
-  // thousands of times as large the rest would be lost in rounding: it is made smaller around the rest, where it looks the same.
-  void take_enclosure() {
-    constexpr double much_larger = 10.0, too_far = 1000.0, far = 100.0;  // relative to the size of all else
-    constexpr double of_speck = 1e5;                                     // it is not the model then, but a speck in it
-    raycast::Box rest = polygon_bounds();
-    std::vector<raycast::Box> boxes;
-    std::size_t largest = 0;
-    for (const radiosity::SceneObject& object : model_.objects) {
-      boxes.push_back(radiosity::placed_bounds(*object.shape, object.placement));
-      if (boxes.back().diameter() > boxes[largest].diameter()) { largest = boxes.size() - 1; }
-    }
-    for (std::size_t i = 0; i < boxes.size(); ++i) {
-      if (i != largest) { rest.extend(boxes[i]); }
-    }
-    if (boxes.empty() || rest.size() == glm::dvec3(0.0)) { return; }
-    radiosity::SceneObject& shell = model_.objects[largest];
-    if (panes_.has(shell)) { return; }
-    raycast::Placement solid = shell.placement;
-    solid.inside = false;
-    const raycast::PlacedObject placed(shell.shape, solid);
-    std::vector<glm::dvec3> points;
-    for (unsigned i = 0; i < 8; ++i) { points.push_back(rest.corner(i)); }
-    for (const radiosity::Camera& camera : file_.cameras) { points.push_back(camera.eye); }
-    const auto within = [&](const glm::dvec3& p) {
-      raycast::Spans spans;
-      placed.spans({p, {0, 0, 1}}, spans);
-      return std::any_of(spans.begin(), spans.end(), [](const raycast::Span& span) { return span.in.t < 0.0 && span.out.t > 0.0; });
-    };
-    if (!boxes[largest].contains(rest) || !std::all_of(points.begin(), points.end(), within)) { return; }
-    const double times = boxes[largest].diameter() / rest.diameter();
-    if (!(times < of_speck)) { return; }
-    std::string sentence = "'" + shell.name + "' encloses all else";
-    if (times > much_larger) { sentence += ", which is " + formatted("%.2g", times) + " times smaller"; }
-    if (times > (shell.placement.inside ? too_far : much_larger) && !radiosity::shines(file_.scene, shell)) {
-      note(sentence + ": left out, for it is too far away to send light back");
-      model_.objects.erase(model_.objects.begin() + static_cast<std::ptrdiff_t>(largest));
-      model_.origins.erase(model_.origins.begin() + static_cast<std::ptrdiff_t>(largest));
-      return;
-    }
-    if (times > too_far) {
-      const double scale = far / times;
-      shell.placement = raycast::compose({glm::dmat3(scale), (1.0 - scale) * rest.centre(), false}, shell.placement);
-      sentence += ": brought near";
-    }
-    if (!shell.placement.inside) { note(sentence + (times > too_far ? ", and" : ":") + " seen from within"); }
-    shell.placement.inside = true;
   }
 
   void place(const glm::dmat3& linear) {

@@ -101,9 +101,25 @@ TEST_CASE("a solid around all else is a sky seen from within, and brought near w
       CHECK(noted(file_of(size, shape, stone).notes, "left out, for it is too far away") == (size > 9.0));
     }
     CHECK_FALSE(noted(file_of(1e6, shape, stone).notes, "encloses"));  // a stone with a speck in it
-    // Not where a camera stands outside, or something does.
+    // Not where a camera, a light or a thing is outside.
     CHECK_FALSE(noted(file_of(10.0, shape, sky, "\nViewpoint { position 0 0 100 }").notes, "encloses"));
+    CHECK_FALSE(noted(file_of(10.0, shape, sky, "\nPointLight { location 0 0 100 }").notes, "encloses"));
     CHECK_FALSE(
         noted(file_of(10.0, shape, sky, "\nTransform { translation 0 9.9 0 children Shape { geometry Sphere { } } }").notes, "encloses"));
   }
+}
+
+TEST_CASE("a solid around nothing but a pane, or what has no area, remains; one that the file shows from within is brought near, too") {
+  const std::string ball = "#VRML V2.0 utf8\nShape { geometry Sphere { radius 100 } }\nShape { ";
+  for (const std::string rest : {"appearance Appearance { material Material { transparency .9 } } geometry Box { } }",
+                                 "geometry IndexedFaceSet { coord Coordinate { point [ 0 0 0, 1 1 1, 2 2 2 ] } coordIndex [ 0 1 2 ] } }"}) {
+    CAPTURE(rest);
+    const apps::SceneFile file = scene("a.wrl", ball + rest);
+    CHECK_FALSE(noted(file.notes, "encloses"));
+    CHECK(radiosity::scene_bounds(file.scene).diameter() > 100.0);
+  }
+  const apps::SceneFile sky = scene("a.mgf", "v o =\n p 0 0 0\nm sky =\n ed 100\nsph o -1e4\nm ball =\n rd .5\nsph o 1\n");
+  CHECK(noted(sky.notes, "brought near"));
+  CHECK_FALSE(noted(sky.notes, "seen from within"));
+  CHECK(radiosity::scene_bounds(sky.scene).diameter() < 1e3);
 }

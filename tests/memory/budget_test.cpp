@@ -84,7 +84,7 @@ TEST_CASE("memory limit of F-refinement: the best that fits, finer with more mem
     all.push_back(1'090'000);  // where tables of few rows once took .4 % more
     for (int i = 0; i < 10; ++i) { all.push_back(of_scene / 2 + random() % (3 * whole.peak)); }
     all.push_back(limit_that_coarsens(scene, options, of_scene / 2, 3 * whole.peak));
-    for (int i = 0; i < 6; ++i) { all.push_back(of_scene + random() % (2 * whole.peak - of_scene)); }
+    for (int i = 0; i < 16; ++i) { all.push_back(of_scene + random() % (2 * whole.peak - of_scene)); }
     std::sort(all.begin(), all.end());
     REQUIRE(all[0] > 0);
     bool refused = false, coarsened = false;
