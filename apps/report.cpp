@@ -201,6 +201,8 @@ class Text {
         return "TARGET MISSED, as told above";
       case Status::estimate_refuted:
         return "ESTIMATE REFUTED: solved as far as the links tell, but path tracing found more than three times their error";
+      case Status::far_off:
+        return "FAR OFF: solved as far as the links tell, but path tracing found the result more than a quarter off";
       case Status::not_converged:
         return "NOT CONVERGED: the residual is larger than asked for";
       case Status::converged:

@@ -109,7 +109,7 @@ std::optional<SceneFile> load_own(const std::string& path, const std::string& te
   }
   if (result.file->cameras.empty()) {
     const std::vector<radiosity::Room> no_rooms;
-    AddedLight(*result.file, no_rooms, {}, false).look_for_light();
+    AddedLight(*result.file, no_rooms, {}, {false, true}).look_for_light();
   }
   return std::move(result.file);
 }

@@ -187,7 +187,7 @@ ExitCode write_solution(Artist& artist, const radiosity::Solution& solution, con
     return complain(std::string("interrupted: the outputs show the best solution so far") + (of_mesh ? ", pictures its mesh" : ""),
                     ExitCode::not_converged);
   }
-  if (solution.audit.converged || solution.audit.refuted) { return ExitCode::ok; }  // nobody had asked for an accuracy
+  if (solution.audit.converged || solution.audit.refuted || solution.audit.far_off()) { return ExitCode::ok; }  // nobody had asked for an accuracy
   return complain("not converged: the outputs show what was reached", ExitCode::not_converged);
 }
 

@@ -42,7 +42,7 @@ void AddedLight::look_for_light() {
   }
   if (cameras.empty()) { return choose_view(views); }
   if (dark.empty()) { return; }
-  const bool first = !eye_chosen_ && dark[0] == 0, all = dark.size() == count;
+  const bool first = !chosen_.eye && dark[0] == 0, all = dark.size() == count;
   std::string sentence = dark.size() == 1 ? "camera '" + cameras[dark[0]].name + "' sees" : counted(dark.size(), "camera") + " see";
   sentence += " next to nothing that a lamp shines on";
   const auto taken_by = [&](const radiosity::Camera& other) {
@@ -66,7 +66,7 @@ void AddedLight::look_for_light() {
     radiosity::Camera outside = radiosity::automatic_camera(file_.scene);
     if (views.lit_share(outside) >= LightViews::tol_dark) { better = std::move(outside); }
   }
-  if (better && !eye_chosen_) { sentence += first ? taken_by(*better) : "; --camera inside stands in the room of a lamp"; }
+  if (better && !chosen_.eye) { sentence += first ? taken_by(*better) : "; --camera inside stands in the room of a lamp"; }
   note(std::move(sentence));
   if (better) { cameras.insert(first ? cameras.begin() : cameras.end(), *std::move(better)); }
 }
@@ -86,7 +86,7 @@ void AddedLight::choose_view(const LightViews& views) {
     return;
   }
   double most = usual;
-  radiosity::Camera best;
+  radiosity::Camera best = automatic;
   for (const radiosity::Camera& camera : radiosity::outside_cameras(file_.scene)) {
     const double share = views.shown_share(camera, light);
     if (share > most) {
@@ -94,8 +94,16 @@ void AddedLight::choose_view(const LightViews& views) {
       best = camera;
     }
   }
+  const double within = inside ? views.shown_share(inside->camera, light) : 0.0;
+  const auto in_nook = [&] {
+    const std::size_t seen = LightViews::many_more * views.surfaces(inside->camera);
+    return inside->reach < LightViews::nook && (views.surfaces(automatic) >= seen || views.surfaces(best) >= seen);
+  };
+  if (most < LightViews::hardly_any && !chosen_.light && (within < LightViews::hardly_any || in_nook())) {
+    return add_studio("its own lamps light hardly anything of what is seen of it");
+  }
   const bool lantern = inside && most >= LightViews::tol_dark && views.lamp_share(inside->camera) > LightViews::in_lantern;
-  if (inside && !lantern && views.shown_share(inside->camera, light) >= std::max(LightViews::tol_dark, LightViews::much_more * most)) {
+  if (inside && !lantern && within >= std::max(LightViews::tol_dark, LightViews::much_more * most)) {
     stand_inside();
   } else if (most >= LightViews::much_light) {
     note("the camera stands outside, on the side from which most of its light is seen");
@@ -174,7 +182,7 @@ bool AddedLight::light_model(std::vector<std::string>& faults) {
     rooms = hidden ? std::vector{room->bounds} : open.seen_through();
   }
   if (!add_room_lamps(rooms)) {
-    add_studio();
+    add_studio("nothing shines in this file");
   } else if (hidden) {
     if (auto inside = LightViews(file_.scene).inside()) {
       note("from outside little is seen of what is in this room: the camera stands in it");
@@ -189,7 +197,7 @@ bool AddedLight::refused(std::vector<std::string>& faults) const {
   return false;
 }
 
-void AddedLight::add_studio() {
+void AddedLight::add_studio(const std::string& because) {
   studio_view_ = radiosity::automatic_camera(file_.scene);
   if (file_.cameras.empty()) { file_.cameras.push_back(*studio_view_); }
   const raycast::Box bounds = radiosity::bounds_without_strays(file_.scene);
@@ -221,7 +229,7 @@ void AddedLight::add_studio() {
   objects.push_back({"studio lamp", raycast::Polygon::make(std::move(lamp)).object, {}, {material + 1}});
   file_.origins.insert(file_.origins.begin(), {"box", {}});
   file_.origins.push_back({"polygon", {}});
-  note("nothing shines in this file: put into a studio with a lamp of 100 W/m2 above it; to have lamps of its own: " + advice_);
+  note(because + ": put into a studio with a lamp of 100 W/m2 above it; to have lamps of its own: " + advice_);
 }
 
 }  // namespace apps

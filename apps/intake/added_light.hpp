@@ -20,10 +20,14 @@ namespace apps {
 // Every decision is a sentence in SceneFile::notes. The scene is in metres, z up.
 class AddedLight {
  public:
-  // `rooms`: closed shells that are seen from inside. `advice`: how to name lamps of the file's own. `eye_chosen`: is the first camera the
-  // user's?
-  AddedLight(SceneFile& file, const std::vector<radiosity::Room>& rooms, std::string advice, bool eye_chosen)
-      : file_(file), rooms_(rooms), advice_(std::move(advice)), eye_chosen_(eye_chosen) {}
+  // What the user chose himself.
+  struct Chosen {
+    bool eye = false;    // the first camera
+    bool light = false;  // which materials shine, or that none be added
+  };
+  // `rooms`: closed shells that are seen from inside. `advice`: how to name lamps of the file's own.
+  AddedLight(SceneFile& file, const std::vector<radiosity::Room>& rooms, std::string advice, Chosen chosen)
+      : file_(file), rooms_(rooms), advice_(std::move(advice)), chosen_(chosen) {}
 
   // A model without any lamp gets lamps under the ceilings of its closed rooms, or of the rooms that its cameras stand in, or of one that
   // nobody sees from outside, because light from outside would not reach these. If it has none, it is put into a studio, so that it can be
@@ -33,7 +37,8 @@ class AddedLight {
   // Such rooms get lamps, too, if a sun lights nothing that is seen.
   bool light_rooms_without_sun(std::vector<std::string>& faults);
 
-  // If the automatic view sees little of the light, adds a camera that sees more, on another side or inside a lit room. Of cameras of the
+  // If the automatic view sees little of the light, adds a camera that sees more, on another side or inside a lit room; if there is none
+  // that sees any to speak of, as of a model with some shining windows, puts it into a studio, too. Of cameras of the
   // file the first that sees a lit surface becomes the first of all, which draws the picture. If all of them see almost none, adds one that
   // sees the model in its studio, or stands inside, or the automatic one: also as the first.
   void look_for_light();
@@ -44,13 +49,13 @@ class AddedLight {
   [[nodiscard]] std::vector<raycast::Box> rooms_of_cameras() const;
   bool add_room_lamps(const std::vector<raycast::Box>& rooms);  // false if no lamp fits into them
   bool refused(std::vector<std::string>& faults) const;
-  void add_studio();
+  void add_studio(const std::string& because);
   void note(std::string sentence) { file_.notes.push_back(std::move(sentence)); }
 
   SceneFile& file_;
   const std::vector<radiosity::Room>& rooms_;
   std::string advice_;
-  bool eye_chosen_;
+  Chosen chosen_;
   std::optional<radiosity::Camera> studio_view_;  // of the model alone
 };
 

@@ -134,6 +134,12 @@ double LightViews::lamp_share(const radiosity::Camera& camera) const {
   return static_cast<double>(lamps) / static_cast<double>(of.points.size());
 }
 
+std::size_t LightViews::surfaces(const radiosity::Camera& camera) const {
+  std::set<std::pair<std::uint32_t, std::uint32_t>> seen_there;
+  for (const raycast::ScenePoint& at : seen(camera, finest).points) { seen_there.insert({at.object, at.sheet}); }
+  return seen_there.size();
+}
+
 double LightViews::usual_light(const std::optional<Chosen>& inside) const {
   if (!light_ || !inside) { return 0.0; }
   return std::min(light_->usual(), share_below(light(seen(inside->camera, fine).points, reflections).reflected, 0.5));
@@ -218,7 +224,7 @@ std::optional<LightViews::Chosen> LightViews::inside() const {
   constexpr double enough = 0.5, as_bright = 0.8, as_closed = 0.95, in_air = 0.9;
   struct Candidate {
     Chosen view;
-    double met = 0.0, reach = 0.0;  // share of the rays that meet anything, and how far, in the median
+    double met = 0.0;  // share of the rays that meet anything
   };
   std::vector<Candidate> views;
   double most = 0.0;
@@ -229,7 +235,7 @@ std::optional<LightViews::Chosen> LightViews::inside() const {
     if (of.fronts < in_air * of.met) { return; }  // in a solid, the backs of which it sees
     std::vector<double> distances;
     for (const raycast::ScenePoint& at : of.points) { distances.push_back(glm::length(at.position - camera->eye)); }
-    views.push_back({{*camera, of.met * shown(of, 0.0)}, of.met, share_below(std::move(distances), 0.5)});
+    views.push_back({{*camera, of.met * shown(of, 0.0), share_below(std::move(distances), 0.5) / size_}, of.met});
     most = std::max(most, views.back().view.lit);
   };
   const double off = 1e-4 * size_;
@@ -244,7 +250,7 @@ std::optional<LightViews::Chosen> LightViews::inside() const {
   for (const Candidate& candidate : views) { closed = std::max(closed, candidate.met); }
   const Candidate* best = nullptr;
   for (const Candidate& candidate : views) {
-    if (candidate.met >= as_closed * closed && (best == nullptr || candidate.reach > best->reach)) { best = &candidate; }
+    if (candidate.met >= as_closed * closed && (best == nullptr || candidate.view.reach > best->view.reach)) { best = &candidate; }
   }
   return best != nullptr && most > 0.0 ? std::optional{best->view} : std::nullopt;
 }

@@ -40,6 +40,12 @@ class LightViews {
   static constexpr double little_light = 0.4, much_light = 0.5, much_more = 1.5, nearly_all = 0.8, many_times = 6.0;
   // A view from inside that shows more lamp than this stands in a lantern, not in a room.
   static constexpr double in_lantern = 0.5;
+  // If less than this is shown from outside, and from within, too, its lamps are no light to see a model by; nor if from within hardly
+  // anything is seen of it: less than `nook` of its size away, and from outside `many_more` times as many surfaces, such as a house with a
+  // lantern beside its door. By measurement on models of others: in rooms one sees a tenth of their size and half as many surfaces, at
+  // least; in nooks around lamps a twenty-fifth, and a quarter.
+  static constexpr double hardly_any = 0.2, nook = 0.06;
+  static constexpr std::size_t many_more = 3;
 
   explicit LightViews(const radiosity::Scene& scene);
 
@@ -54,9 +60,13 @@ class LightViews {
   // Of what a camera sees the share that are lamps.
   [[nodiscard]] double lamp_share(const radiosity::Camera& camera) const;
 
+  // The number of surfaces that a camera sees.
+  [[nodiscard]] std::size_t surfaces(const radiosity::Camera& camera) const;
+
   struct Chosen {
     radiosity::Camera camera;
-    double lit = 0.0;  // share of its picture that is not black
+    double lit = 0.0;    // share of its picture that is not black
+    double reach = 0.0;  // median of the distances of what it sees, relative to the size of what is lit
   };
   // A view across the room of one of the brightest lamps, from its far end: a view that shows much light. Where the room is open, it looks
   // away from the opening. Nothing if there is no lamp or no suitable place. Does not depend on the order of the polygons of a lamp.
@@ -76,7 +86,7 @@ class LightViews {
     double fronts = 0.0, met = 0.0;
     std::vector<raycast::ScenePoint> points;
   };
-  static constexpr std::uint32_t fine = 24, coarse = 12;  // rays across
+  static constexpr std::uint32_t finest = 48, fine = 24, coarse = 12;  // rays across
 
   [[nodiscard]] Seen seen(const radiosity::Camera& camera, std::uint32_t across) const;
   // Of these points the number on lamps, and the light that each of the others reflects, without what was reflected more than `most` times.

@@ -112,6 +112,8 @@ HALFLIGHT_INLINE std::optional<PictureError> PictureAudit::measure(const ShownPi
   result.over2 = over2;
   result.over8 = over8;
   result.worst = worst_tile(picture, measured);
+  // The worst tile is no better than the whole: then most of the error is where too few of the pixels lie for a tile of their own.
+  if (result.worst && result.worst->error.high < error->low) { result.worst.reset(); }
   result.steering = steering.sums.estimate();
   result.picture_work = picture_worth(price, picture.width, picture.height);
   return result;

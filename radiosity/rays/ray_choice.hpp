@@ -26,6 +26,9 @@ inline constexpr std::uint64_t most_single_lamps = 64;
 // faces.
 inline constexpr std::uint64_t rays_from = 100;
 
+// The same where most of the faces are those of a sky. Measured on houses of 10 to 90 faces below one of 216.
+inline constexpr std::uint64_t sky_rays_from = 300;
+
 // Rays also pay among few faces if the RMS of the light reflected once exceeds this multiple of the mean emission. Then the brightest
 // surface lies close beside a lamp, which hides it from most of the scene, and the single visible fraction of a link with a whole ceiling
 // does not represent that: by links, walls and floors were 8 % too bright with a lamp 5 cm below the ceiling, 15 % with 1 cm, and 20 to
@@ -42,6 +45,10 @@ struct FaceCounts {
   std::uint64_t shining = 0;        // those that emit
   std::uint64_t lamps = 0;          // those of them that are lamps (lamp_choice.hpp)
   std::uint64_t uncut_shining = 0;  // those that emit before long ones were cut, whose parts are linked one by one while they are few
+
+  [[nodiscard]] bool most_shine() const { return 2 * shining > all; }
+  // Too many pairs of a face that shines and any other for linking them one by one?
+  [[nodiscard]] bool many_pairs() const { return shining * all > 4'000'000; }
 };
 
 [[nodiscard]] inline RayChoice choose_rays(const FaceCounts& faces, const Options& options) {
@@ -51,9 +58,7 @@ struct FaceCounts {
   if (options.solver == Solver::gauss_seidel || options.solver == Solver::southwell) {
     return {false, "Gauss-Seidel and Southwell go through the links of one patch at a time"};
   }
-  constexpr std::uint64_t most_pairs = 4'000'000;
   const std::uint64_t others = faces.all - faces.shining;
-  const bool most_shine = 2 * faces.shining > faces.all, many_pairs = faces.shining * faces.all > most_pairs;
   if (options.indirect == Indirect::automatic) {
     // Lamps of many faces have clusters whether rays are cast or not. Without, a bulb of 1152 faces in its shade took 56 s, and the shade
     // was 14 % too dark; with these, and rays because it is lit beside the lamp, 5 s and 4 %.
@@ -62,13 +67,13 @@ struct FaceCounts {
       return {false, "they pay from some " + std::to_string(rays_from) + " input faces on, there are " + std::to_string(faces.all),
               many_lamps, true};
     }
-    // Most of the interreflected light is that between the other faces. Under a sky of many faces, links made a street 30 % too bright, a
-    // church 60 %.
-    if (most_shine && others < rays_from && !many_pairs) {
+    // Most of the interreflected light is that between the other faces. Under a sky of many faces, which is no lamp, rays take a tenth of the
+    // time of links for pictures as good.
+    if (faces.most_shine() && others < rays_from && !faces.many_pairs() && (many_lamps || faces.all < sky_rays_from)) {
       return {false, "most input faces shine, and are few enough to be linked", many_lamps, true};
     }
   }
-  return {true, {}, faces.uncut_shining > most_single_lamps || many_pairs || most_shine};
+  return {true, {}, faces.uncut_shining > most_single_lamps || faces.many_pairs() || faces.most_shine()};
 }
 
 }  // namespace radiosity

@@ -4,6 +4,7 @@
 // The report of a run about itself: its error, its time, and its shortcuts. The error is measured, not guessed
 // (error_estimate.hpp, surface_error.hpp).
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -54,9 +55,10 @@ struct MeshRefinement {
 };
 
 // What became of a run. If several hold, the first in this order is told.
-enum class RunStatus { interrupted, out_of_memory, target_missed, estimate_refuted, not_converged, converged };
+enum class RunStatus { interrupted, out_of_memory, target_missed, estimate_refuted, far_off, not_converged, converged };
 inline constexpr const char* name(RunStatus status) {
-  constexpr const char* names[] = {"interrupted", "out of memory", "target missed", "estimate refuted", "not converged", "converged"};
+  constexpr const char* names[] = {"interrupted", "out of memory", "target missed", "estimate refuted",
+                                   "far off",     "not converged", "converged"};
   return names[static_cast<int>(status)];
 }
 
@@ -66,8 +68,17 @@ struct Audit {
            : !shortage.empty() ? RunStatus::out_of_memory
            : target_missed     ? RunStatus::target_missed
            : refuted           ? RunStatus::estimate_refuted
+           : far_off()         ? RunStatus::far_off
            : !converged        ? RunStatus::not_converged
                                : RunStatus::converged;
+  }
+
+  // Has path tracing found that a quarter of the light of the surfaces or of the picture is wrong, and more than was asked for? Then light
+  // was not found or invented, whatever the links tell.
+  [[nodiscard]] bool far_off() const {
+    constexpr double much = 0.25;
+    const auto more = [&](const std::optional<ErrorEstimate>& error) { return error && error->above(std::max(much, asked)); };
+    return more(surface_error) || more(leaf_error) || (picture_error && more(picture_error->error));
   }
 
   // time
@@ -105,7 +116,7 @@ struct Audit {
   double residual = 0.0;
   std::uint32_t iterations = 0;
   std::vector<std::vector<double>> histories;  // by channel: the relative residual at the start and after each iteration
-  // Residual reached and, if an error target was requested, that target. Without a target: not refuted.
+  // Residual reached and, if an error target was requested, that target. Without a target: not refuted, and surfaces not far off.
   bool converged = true;
   bool interrupted = false;  // stopped early with the best solution so far; its error may not be measured
   bool coarsened = false;    // F-refinement used larger thresholds than requested, because it was interrupted or short of memory
@@ -115,6 +126,7 @@ struct Audit {
   // requested; of the leaves.
   std::optional<double> estimated_error, estimated_leaf_error;
   std::string estimate_doubt;     // why the estimate is no bound of the error, or far above it; empty if it may be taken as one
+  double asked = 0.0;             // Options::error, or ::target of BF-refinement; 0: no accuracy was asked for
   bool target_missed = false;     // of Options::error, by the audit; of Options::target, by the estimate or the audit
   bool refuted = false;           // without a target: did the audit find more than three times the estimated error?
   std::string rounds_ended_by;    // if Options::error was missed: the reason why the rounds ended, such as "three rounds without gain"

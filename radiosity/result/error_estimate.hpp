@@ -67,6 +67,7 @@ struct PictureError {
   double audited = 0.0;      // share of all pixels that are visible and show no lamp
   ShareBounds over2, over8;  // share of those with a channel more than 2, or 8, of 255 levels off
   // Of 4 x 4 tiles, those with at least 16 of the pixels are compared; the one with the largest lower bound of its error. Same unit.
+  // Nothing if most of the error is in other tiles.
   struct Tile {
     std::uint32_t column = 0, row = 0;
     ErrorEstimate error;

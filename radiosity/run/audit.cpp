@@ -117,9 +117,9 @@ HALFLIGHT_INLINE void compare_with_estimate(Run& run) {
   if (!run.solution.refined) { compare(audit.estimated_error, audit.surface_error); }
   compare(audit.estimated_leaf_error, audit.leaf_error);
   if (!found.empty()) { audit.estimate_doubt = found; }
-  const bool asked = run.options.error || (run.bf_refined() && !run.options.time);
-  audit.refuted = audit.converged && refuted && !asked;
-  audit.converged = audit.converged && !audit.refuted;
+  audit.asked = run.options.error.value_or(run.bf_refined() && !run.options.time ? run.options.target : 0.0);
+  audit.refuted = audit.converged && refuted && !(audit.asked > 0.0);
+  audit.converged = audit.converged && !audit.refuted && !audit.far_off();
 }
 
 // Checks whether BF-refinement has met its target, by its own estimate and, if there is one, by the audit.

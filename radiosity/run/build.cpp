@@ -48,7 +48,9 @@ namespace detail {
 }
 
 // Chooses which light goes by links and which by stored rays. Accordingly puts clusters above the input faces: above lamps only, if these
-// are many; above all faces, if these are many and no rays are cast. `uncut_lamps`: emitting faces before long ones were cut.
+// are many; above all faces, if these are many and no rays are cast. But not if most are those of a sky: what a cluster receives goes to
+// all of its faces that are turned to the light, also to those in a room behind a wall, where a sky's light is a hundred times what passes
+// the window. `uncut_lamps`: emitting faces before long ones were cut.
 HALFLIGHT_INLINE void choose_ways_of_light(Run& run, std::uint64_t uncut_lamps) {
   const Options& options = run.options;
   DiscreteScene& scene = run.scene;
@@ -74,6 +76,8 @@ HALFLIGHT_INLINE void choose_ways_of_light(Run& run, std::uint64_t uncut_lamps) 
     run.clusters = {false, "between surfaces that do not shine light goes by stored rays"};
   } else if (run.rays.many_lamps) {
     run.clusters = {false, "lamps of many faces have clusters of their own"};
+  } else if (faces.most_shine() && !faces.many_pairs()) {
+    run.clusters = {false, "most input faces shine, and are few enough to be linked one by one"};
   } else {
     run.clusters = choose_clusters(scene.hierarchy.size(), options);
   }

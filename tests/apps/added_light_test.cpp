@@ -198,3 +198,40 @@ TEST_CASE("a room with a doorway and without a lamp is lit if the camera of the 
     }
   }
 }
+
+// A house of many parts with a lantern beside its door, which lights a spot of one wall, from inside a box open below.
+TEST_CASE("a model of which its own lamps light hardly anything is put into a studio, unless the user chose them") {
+  for (const bool lantern : {false, true}) {
+    const auto house = [&] {
+      apps::Model model;
+      model.groups = {"house", "lamp"};
+      model.materials = {{"stone", radiosity::Color(0.5)}, {"lamp", radiosity::Color(0.5), radiosity::Color(10.0)}};
+      add_box(model, {0, 0, 0}, {10, 10, 8}, false);
+      for (int i = 0; i < 10; ++i) {
+        for (int j = 0; j < 8; ++j) {
+          const double a = i + 0.3, z = j + 0.3;
+          add_box(model, {a, -0.1, z}, {a + 0.4, 0, z + 0.4}, false);
+          add_box(model, {a, 10, z}, {a + 0.4, 10.1, z + 0.4}, false);
+          add_box(model, {-0.1, a, z}, {0, a + 0.4, z + 0.4}, false);
+          add_box(model, {10, a, z}, {10.1, a + 0.4, z + 0.4}, false);
+        }
+      }
+      if (lantern) {
+        add_box(model, {4.8, -0.5, 2.6}, {5.2, -0.1, 2.7}, false);
+        add_box(model, {4.9, -0.4, 2.5}, {5.1, -0.2, 2.6}, false, 1);
+      } else {
+        add_box(model, {-20, -20, 30}, {30, 30, 31}, false, 1);
+      }
+      return model;
+    };
+    std::vector<std::string> faults;
+    const auto file = apps::to_scene(house(), apps::UpAxis::z, {}, faults);
+    REQUIRE(file);
+    CHECK(noted(file->notes, "put into a studio") == lantern);
+    apps::ModelOptions chosen;
+    chosen.lamps = {{"lamp", 10.0}};
+    const auto as_chosen = apps::to_scene(house(), apps::UpAxis::z, chosen, faults);
+    REQUIRE(as_chosen);
+    CHECK_FALSE(noted(as_chosen->notes, "put into a studio"));
+  }
+}

@@ -2,6 +2,7 @@
 
 // What a run says became of it agrees with what its own audit found.
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -89,4 +90,29 @@ TEST_CASE("a run that has converged is not contradicted by its own audit: by a t
   CHECK(converged[0] > 0);
   CHECK(converged[1] > 0);
   CHECK(refuted > 0);
+}
+
+TEST_CASE("a run has not converged if path tracing found a quarter of the light of surfaces or picture wrong, and more than was asked for") {
+  const auto seed = test::seed();
+  INFO("seed " << seed);
+  radiosity::Random random{seed, 1};
+  int far_off = 0;
+  for (int k = 0; k < 200; ++k) {
+    radiosity::Audit audit;
+    audit.asked = k % 2 == 0 ? 0.0 : random.uniform();
+    double most = 0.0;
+    const auto error = [&] {
+      const double low = random.uniform() * random.uniform();
+      most = std::max(most, low);
+      return radiosity::ErrorEstimate{1.1 * low, 0.1 * low, low, 1.2 * low};
+    };
+    if (k % 3 != 0) { audit.surface_error = error(); }
+    if (k % 3 != 1) { audit.leaf_error = error(); }
+    if (k % 5 != 0) { audit.picture_error.emplace().error = error(); }
+    CAPTURE(k, most, audit.asked);
+    CHECK((audit.status() == RunStatus::far_off) == (most > std::max(0.25, audit.asked)));
+    far_off += audit.far_off() ? 1 : 0;
+  }
+  CHECK(far_off > 20);
+  CHECK(far_off < 180);
 }
