@@ -52,6 +52,11 @@ inline constexpr double large_lamp = 0.25;
 inline constexpr std::size_t fine_samples = 4096;
 inline constexpr std::size_t most_fine = 4;
 
+// Upper limit of DirectLight::off_surface, relative to the diameter of small objects: one in eight is smaller. And a lower limit, above
+// the rounding of positions in double precision.
+inline constexpr double off_small = 0.01, least_off_surface = 1e-12;
+inline constexpr std::size_t one_small_in = 8;
+
 // A rectangle around the facets, in a plane with this normal.
 [[nodiscard]] HALFLIGHT_INLINE std::array<glm::dvec3, 4> rectangle_around(const Facets& facets, const glm::dvec3& n) {
   const glm::dvec3 origin = facets.facets[0].contour[0];
@@ -159,13 +164,18 @@ HALFLIGHT_INLINE DirectLight::Sheets DirectLight::sheets_of(const std::vector<Su
 
 HALFLIGHT_INLINE void DirectLight::set_tolerances(const raycast::Box& dark) {
   const double size = dark.empty() ? 1.0 : std::min(1.0, dark.diameter());
-  off_surface_ *= size;
   slack_ = std::max(detail::rounding_slack, detail::least_slack * size);
+  std::vector<double> diameters;
   for (std::uint32_t o = 0; o < objects_->size(); ++o) {
     const raycast::Box box = objects_->object(o).bounds();
-    const bool apart = !dark.empty() && !box.meets(dark);  // a sun
-    if (!apart) { slack_ = std::max(slack_, 2.0 * objects_->object(o).slack()); }
+    if (!dark.empty() && !box.meets(dark)) { continue; }  // a sun
+    slack_ = std::max(slack_, 2.0 * objects_->object(o).slack());
+    diameters.push_back(box.diameter());
   }
+  if (diameters.empty()) { return; }
+  const auto small = diameters.begin() + static_cast<std::ptrdiff_t>(diameters.size() / detail::one_small_in);
+  std::nth_element(diameters.begin(), small, diameters.end());
+  off_surface_ = std::max(detail::least_off_surface, std::min(off_surface_ * size, detail::off_small * *small));
 }
 
 HALFLIGHT_INLINE void DirectLight::mark_behind(Lamp& lamp) const {

@@ -92,8 +92,9 @@ class DirectLight {
   // adjacent sheet, because beside a rounded edge the point may lie between that sheet and its mesh.
   [[nodiscard]] glm::dvec3 lifted(std::uint32_t o, const glm::dvec3& x, const glm::dvec3& n) const;
   // The distance from flat surfaces at which segments begin and end, so that they need no owners and single precision decides nearly all
-  // tests. It exceeds the single-precision error in a scene of size 1 to 2. If lamps are far away compared with the rest of the scene it
-  // is smaller: then double precision decides more tests, and small objects still cast shadows where they touch the floor.
+  // tests. It exceeds the single-precision error in a scene of size 1 to 2. If lamps are far away compared with the rest of the scene, or
+  // objects far smaller than it, it is smaller: then double precision decides more tests, and small objects still cast shadows where they
+  // touch the floor, and a lamp in a hut on a wide plain lights what is before the door.
   [[nodiscard]] double off_surface() const { return off_surface_; }
   // The sheet of the true object that a segment has met.
   [[nodiscard]] std::uint32_t sheet(const raycast::Hit& hit) const {
