@@ -80,7 +80,8 @@ void AddedLight::choose_view(const LightViews& views) {
     file_.cameras.push_back(std::move(inside->camera));
   };
   if (usual >= LightViews::little_light) {
-    const bool lit = inside && views.lit_share(inside->camera) >= LightViews::much_light;
+    const bool lit = inside && inside->reach >= LightViews::of_rooms && views.lamp_share(inside->camera) <= LightViews::in_lantern &&
+                     views.lit_share(inside->camera) >= LightViews::much_light;
     const double bright = lit ? views.bright_share(inside->camera, light) : 0.0;
     if (bright >= std::max(LightViews::nearly_all, LightViews::many_times * views.bright_share(automatic, light))) { stand_inside(); }
     return;

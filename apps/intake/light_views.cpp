@@ -221,12 +221,12 @@ std::optional<radiosity::Camera> LightViews::across_room(glm::dvec3 middle) cons
 // much light and as few openings as any, the one that sees furthest is taken.
 std::optional<LightViews::Chosen> LightViews::inside() const {
   constexpr std::size_t most_lamps = 8;
-  constexpr double enough = 0.5, as_bright = 0.8, as_closed = 0.95, in_air = 0.9;
+  constexpr double enough = 0.5, as_bright = 0.8, as_closed = 0.95, in_air = 0.9, blocked = 0.1;
   struct Candidate {
     Chosen view;
     double met = 0.0;  // share of the rays that meet anything
   };
-  std::vector<Candidate> views;
+  std::vector<Candidate> views, close;  // close: before something that fills half of the picture; only if there are no others
   double most = 0.0;
   const auto look = [&](const glm::dvec3& middle) {
     const std::optional<radiosity::Camera> camera = across_room(middle);
@@ -235,8 +235,11 @@ std::optional<LightViews::Chosen> LightViews::inside() const {
     if (of.fronts < in_air * of.met) { return; }  // in a solid, the backs of which it sees
     std::vector<double> distances;
     for (const raycast::ScenePoint& at : of.points) { distances.push_back(glm::length(at.position - camera->eye)); }
-    views.push_back({{*camera, of.met * shown(of, 0.0), share_below(std::move(distances), 0.5) / size_}, of.met});
-    most = std::max(most, views.back().view.lit);
+    const double reach = share_below(distances, 0.5);
+    const Candidate view{{*camera, of.met * shown(of, 0.0), reach / size_}, of.met};
+    if (reach < blocked * share_below(std::move(distances), 0.9)) { return close.push_back(view); }
+    views.push_back(view);
+    most = std::max(most, view.view.lit);
   };
   const double off = 1e-4 * size_;
   for (std::size_t i = 0; i < std::min(most_lamps, lamps_.size()); ++i) {
@@ -245,6 +248,8 @@ std::optional<LightViews::Chosen> LightViews::inside() const {
     look({box.centre().x, box.centre().y, box.hi.z + off});
   }
   for (std::size_t i = 0; i < points_.size() && most < enough; ++i) { look(points_[i].position + off * points_[i].normal); }
+  if (views.empty()) { views.swap(close); }
+  for (const Candidate& candidate : views) { most = std::max(most, candidate.view.lit); }
   std::erase_if(views, [&](const Candidate& candidate) { return candidate.view.lit < as_bright * most; });
   double closed = 0.0;
   for (const Candidate& candidate : views) { closed = std::max(closed, candidate.met); }

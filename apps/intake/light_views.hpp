@@ -36,8 +36,9 @@ class LightViews {
   // Seen from outside, a house shows its light only through some windows. If less than `little_light` of what the automatic view sees is
   // shown, a view from inside replaces it, if that shows at least `much_more` times as large a part of what it sees as any from outside;
   // else a view from another side, if it shows `much_light`. A corridor with an open end shows much light there, but in a small part of the
-  // picture: a view from inside replaces that, too, if `nearly_all` of its pixels show light, and `many_times` more than from outside.
-  static constexpr double little_light = 0.4, much_light = 0.5, much_more = 1.5, nearly_all = 0.8, many_times = 6.0;
+  // picture: a view from inside replaces that, too, if `nearly_all` of its pixels show light, and `many_times` more than from outside, and
+  // it sees as far as `of_rooms` of the size of what is lit: not the spot before a lamp in a model that fills little of its picture.
+  static constexpr double little_light = 0.4, much_light = 0.5, much_more = 1.5, nearly_all = 0.8, many_times = 6.0, of_rooms = 0.1;
   // A view from inside that shows more lamp than this stands in a lantern, not in a room.
   static constexpr double in_lantern = 0.5;
   // If less than this is shown from outside, and from within, too, its lamps are no light to see a model by; nor if from within hardly

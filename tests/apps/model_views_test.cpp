@@ -134,6 +134,22 @@ TEST_CASE("a stone lantern is looked at from outside, not from within its chambe
 }
 
 // Flat boxes close under the ceiling, as ceiling lamps are, over furniture.
+// Above the panel and between the plates everything is bright, and from outside only the small part of the picture that the luminaire fills.
+TEST_CASE("a luminaire with plates above its panel is looked at from outside, not from between them") {
+  apps::Model model;
+  model.groups = {"tray", "lamp"};
+  model.materials = {{"tray", radiosity::Color(0.7)}, {"lamp", radiosity::Color(0.5), radiosity::Color(100.0)}};
+  add_box(model, {0, 0, 0}, {12, 1, 0.05}, false);
+  add_box(model, {-0.05, -0.05, 0}, {12.05, 0, 0.35}, false);
+  add_box(model, {-0.05, 1, 0}, {12.05, 1.05, 0.35}, false);
+  for (int i = 0; i <= 24; ++i) { add_box(model, {0.5 * i - 0.01, 0, 0.25}, {0.5 * i + 0.01, 1, 0.35}, false); }
+  add_box(model, {0.1, 0.1, 0.1}, {11.9, 0.9, 0.15}, false, 1);
+  std::vector<std::string> faults;
+  const auto file = apps::to_scene(std::move(model), apps::UpAxis::z, {}, faults);
+  REQUIRE(file);
+  CHECK((file->cameras.empty() || !raycast::Box{{-0.05, -0.05, 0}, {12.05, 1.05, 0.35}}.contains(file->cameras[0].eye)));
+}
+
 TEST_CASE("the camera in a house stands at the height of an eye and sees what lamps shine on") {
   const unsigned seed = test::seed();
   INFO("seed " << seed);
