@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
@@ -14,6 +13,8 @@
 #include <string>
 #include <string_view>
 #include <system_error>
+
+#include <radiosity/support/number_text.hpp>
 
 namespace apps {
 
@@ -71,10 +72,7 @@ template <class List>
 }
 
 // The fewest digits that read back as the same number.
-[[nodiscard]] inline std::string shortest(double x) {
-  std::array<char, 40> digits{};
-  return {digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), x).ptr};
-}
+[[nodiscard]] inline std::string shortest(double x) { return radiosity::number_text(x); }
 
 // 1234567 as "1 234 567".
 [[nodiscard]] inline std::string grouped(std::uint64_t count, const char* between = " ") {

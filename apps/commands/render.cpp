@@ -187,7 +187,8 @@ ExitCode write_solution(Artist& artist, const radiosity::Solution& solution, con
     return complain(std::string("interrupted: the outputs show the best solution so far") + (of_mesh ? ", pictures its mesh" : ""),
                     ExitCode::not_converged);
   }
-  if (solution.audit.converged || solution.audit.refuted || solution.audit.far_off()) { return ExitCode::ok; }  // nobody had asked for an accuracy
+  // What path tracing found wrong is told by the report; nobody had asked for an accuracy.
+  if (solution.audit.converged || solution.audit.refuted || solution.audit.far_off()) { return ExitCode::ok; }
   return complain("not converged: the outputs show what was reached", ExitCode::not_converged);
 }
 

@@ -13,6 +13,7 @@
 #include <radiosity/scene/material.hpp>
 
 #include "apps/scene_file/parser.hpp"
+#include "apps/text.hpp"
 
 namespace apps::scene_file {
 namespace {
@@ -87,7 +88,7 @@ void Parser::camera_clause(const Token& keyword, CameraSyntax& out) {
   } else if (keyword.text == "fov") {
     double& fov = camera.field_of_view;
     if (numbers(keyword, std::span(&fov, 1)) && !(fov >= 0.001 && fov <= 179.0)) {
-      error(place, "expected a horizontal field of view from 0.001 to 179 degrees, found " + std::to_string(fov));
+      error(place, "expected a horizontal field of view from 0.001 to 179 degrees, found " + shortest(fov));
     }
   } else {
     radiosity::PictureSize size;
@@ -190,7 +191,8 @@ void Parser::own_clause(const Token& keyword, Form form, ObjectSyntax& out) {
   const std::size_t count = form == Form::vector ? 3 : form == Form::pair ? 2 : 1;
   if (!numbers(keyword, std::span(given.numbers).first(count))) { return; }
   if (form == Form::length && !(given.numbers[0] >= 1.0 / max_number)) {
-    return error(given.place, "expected a " + std::string(keyword.text) + " above 0, found " + std::to_string(given.numbers[0]));
+    return error(given.place, "expected a " + std::string(keyword.text) + " of at least " + formatted("%g", 1.0 / max_number) + ", found " +
+                                  shortest(given.numbers[0]));
   }
   out.given.push_back(given);
 }

@@ -23,6 +23,7 @@
 #include <radiosity/result/stopwatch.hpp>
 #include <radiosity/scene/material.hpp>
 #include <radiosity/scene/options.hpp>
+#include <radiosity/support/memory.hpp>
 
 namespace radiosity {
 
@@ -180,6 +181,9 @@ HALFLIGHT_INLINE Outcome solve_to_error(const Options& options,
   audit.target_missed = !(best_error && best_error->within(wanted));
   if (audit.target_missed) {
     if (audit.shortage.empty()) { audit.shortage = std::move(later_shortage); }
+    if (!audit.shortage.empty() && !options.memory) {
+      audit.shortage += "; no limit was set (--memory), so " + memory_text(memory_of_rounds) + " was that of each round";
+    }
     audit.rounds_ended_by = audit.interrupted ? "an interruption" : !audit.shortage.empty() ? "want of memory" : ended_by;
   }
   audit.converged = audit.converged && !audit.interrupted && audit.shortage.empty() && !audit.target_missed;

@@ -17,6 +17,7 @@
 #include <radiosity/result/out_of_memory.hpp>
 #include <radiosity/scene/frame.hpp>
 #include <radiosity/scene/scene.hpp>
+#include <radiosity/support/number_text.hpp>
 
 namespace radiosity {
 
@@ -36,7 +37,7 @@ inline BakeOutcome bake_within_memory(const PolygonView& mesh, std::span<const M
   if (materials.empty()) { sentences.emplace_back("there are no materials"); }
   if (!sentences.empty()) { return refused(std::move(sentences)); }
   if (!(options.intake.weld >= 0.0 && options.intake.weld <= largest_weld)) {
-    return refused({"weld is " + std::to_string(options.intake.weld) + "; it lies in [0, 0.01]"}, Failure::Kind::invalid_options);
+    return refused({"weld is " + number_text(options.intake.weld) + "; it lies in [0, 0.01]"}, Failure::Kind::invalid_options);
   }
   Scene scene{{materials.begin(), materials.end()}, {}};
   Intake intake = take_in(mesh, materials, options.intake);

@@ -24,6 +24,7 @@
 #include <radiosity/bake/bake.hpp>
 #include <radiosity/bake/c_names.hpp>
 #include <radiosity/bake/lightmap.hpp>
+#include <radiosity/support/number_text.hpp>
 
 struct halflight_job {
   std::span<const float> positions;
@@ -187,7 +188,7 @@ halflight_status halflight_set_number(halflight_job* job, const char* option, do
     for (const NumberOption& known : number_options) {
       if (known.name != option) { continue; }
       if (!(value >= known.least && value <= known.most) || (known.whole && value != std::floor(value))) {
-        return refuse(job, std::string(option) + " cannot be " + std::to_string(value));
+        return refuse(job, std::string(option) + " cannot be " + radiosity::number_text(value));
       }
       known.set(job->options, value);
       return HALFLIGHT_OK;
@@ -237,6 +238,11 @@ halflight_status halflight_run(halflight_job* job) {
     const radiosity::Audit& audit = job->baked->audit;
     job->changes.insert(job->changes.end(), audit.warnings.begin(), audit.warnings.end());
     if (!audit.shortage.empty()) { job->changes.push_back(audit.shortage); }
+    if (audit.target_missed) {
+      job->changes.push_back("the error that was asked for was not reached" +
+                             (audit.rounds_ended_by.empty() ? std::string() : ": ended by " + audit.rounds_ended_by));
+    }
+    if (audit.far_off()) { job->changes.push_back("path tracing found the result more than a quarter off"); }
     return HALFLIGHT_OK;
   });
 }

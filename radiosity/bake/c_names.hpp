@@ -63,7 +63,11 @@ template <class Number>
 }
 
 inline constexpr std::array<Figure, 16> figures{{
-    {"error", [](const radiosity::Baked& b) { return of_error(b, &radiosity::ErrorEstimate::relative_l2); }},
+    {"error",
+     [](const radiosity::Baked& b) {  // its upper bound if noise hides it: 0 would be read as exact
+       const auto error = of_error(b, &radiosity::ErrorEstimate::relative_l2), low = of_error(b, &radiosity::ErrorEstimate::low);
+       return low && *low > 0.0 ? error : of_error(b, &radiosity::ErrorEstimate::high);
+     }},
     {"error_low", [](const radiosity::Baked& b) { return of_error(b, &radiosity::ErrorEstimate::low); }},
     {"error_high", [](const radiosity::Baked& b) { return of_error(b, &radiosity::ErrorEstimate::high); }},
     {"seconds", [](const radiosity::Baked& b) { return number(b.audit.wall_seconds); }},

@@ -104,11 +104,13 @@ HALFLIGHT_API halflight_status halflight_at(const halflight_job* job, size_t tri
  * buffers that were set are read again and must still exist. */
 HALFLIGHT_API halflight_status halflight_make_lightmap(halflight_job* job, double texel, uint32_t most, uint32_t* width, uint32_t* height);
 
-/* Returns a figure of the run by name: error, error_low, error_high (relative L2 and its 95 % interval), seconds, cpu_seconds, faces,
- * leaves, links, rays, residual, iterations, converged, interrupted, coarsened (1: stopped or short of memory, with a larger epsilon than
- * requested), epsilon, without (number of corners without light of their own). */
+/* Returns a figure of the run by name: error, error_low, error_high (relative L2 and its 95 % interval; error_low is 0 if noise hides the
+ * error, and error its upper bound), seconds, cpu_seconds, faces, leaves, links, rays, residual, iterations, converged, interrupted,
+ * coarsened (1: stopped or short of memory, with a larger epsilon than requested), epsilon, without (number of corners without light of
+ * their own). */
 HALFLIGHT_API halflight_status halflight_figure(halflight_job* job, const char* name, double* value);
-/* Sentence `number` of: repairs of the triangles, warnings, and the reason if the run ended early. Null beyond the last one. */
+/* Sentence `number` of: repairs of the triangles, warnings, the reason if the run ended early, and what is known of an error that was not
+ * reached. Null beyond the last one. */
 HALFLIGHT_API const char* halflight_change(const halflight_job* job, size_t number);
 
 #ifdef __cplusplus

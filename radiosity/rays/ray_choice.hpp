@@ -67,8 +67,8 @@ struct FaceCounts {
       return {false, "they pay from some " + std::to_string(rays_from) + " input faces on, there are " + std::to_string(faces.all),
               many_lamps, true};
     }
-    // Most of the interreflected light is that between the other faces. Under a sky of many faces, which is no lamp, rays take a tenth of the
-    // time of links for pictures as good.
+    // Most of the interreflected light is that between the other faces. Under a sky of many faces, which is no lamp, rays take a tenth of
+    // the time of links for pictures as good.
     if (faces.most_shine() && others < rays_from && !faces.many_pairs() && (many_lamps || faces.all < sky_rays_from)) {
       return {false, "most input faces shine, and are few enough to be linked", many_lamps, true};
     }

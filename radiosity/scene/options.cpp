@@ -6,12 +6,14 @@
 
 #include <brep/inline.hpp>
 
+#include <radiosity/support/number_text.hpp>
+
 namespace radiosity {
 
 HALFLIGHT_INLINE std::vector<std::string> faults(const Options& options) {
   std::vector<std::string> sentences;
   const auto check = [&](const char* name, double value, bool sound, const char* range) {
-    if (!sound) { sentences.push_back(std::string{name} + " is " + std::to_string(value) + "; it must be " + range); }
+    if (!sound) { sentences.push_back(std::string{name} + " is " + number_text(value) + "; it must be " + range); }
   };
   check("epsilon", options.epsilon, options.epsilon > 0.0, "above 0");
   check("min_area", options.min_area, options.min_area >= 0.0, "0 or more");

@@ -134,7 +134,7 @@ TEST_CASE("a stone lantern is looked at from outside, not from within its chambe
 }
 
 // Flat boxes close under the ceiling, as ceiling lamps are, over furniture.
-// Above the panel and between the plates everything is bright, and from outside only the small part of the picture that the luminaire fills.
+// Above the panel and between the plates everything is bright; from outside only the small part of the picture that the luminaire fills.
 TEST_CASE("a luminaire with plates above its panel is looked at from outside, not from between them") {
   apps::Model model;
   model.groups = {"tray", "lamp"};

@@ -97,3 +97,37 @@ TEST_CASE("C interface: light is asked at points that are finite, and warnings o
   REQUIRE(halflight_run(job.get()) == HALFLIGHT_OK);
   CHECK(says("reflected by any surface"));
 }
+
+TEST_CASE("C interface: an error that was not reached is told, and none is told as 0") {
+  const Job job = square();
+  std::array<float, 24> both{};
+  const std::array<std::uint32_t, 12> all{0, 1, 2, 0, 2, 3, 4, 6, 5, 4, 7, 6};
+  for (std::size_t i = 0; i < 12; ++i) {
+    both[i] = corners[i];
+    both[i + 12] = corners[i] + (i % 3 == 2 ? 1.0f : 0.0f);
+  }
+  const std::array<std::uint32_t, 4> material{1, 1, 0, 0};
+  REQUIRE(halflight_add_material(job.get(), "grey", grey, nullptr) == 1);
+  REQUIRE(halflight_set_positions(job.get(), both.data(), 8, 3) == HALFLIGHT_OK);
+  REQUIRE(halflight_set_triangles(job.get(), all.data(), 4, material.data()) == HALFLIGHT_OK);
+  REQUIRE(halflight_set_number(job.get(), "memory", 3e7) == HALFLIGHT_OK);
+  for (const double wanted : {0.05, 1e-6}) {
+    REQUIRE(halflight_set_number(job.get(), "error", wanted) == HALFLIGHT_OK);
+    REQUIRE(halflight_run(job.get()) == HALFLIGHT_OK);
+    bool told = false;
+    for (std::size_t k = 0; const char* sentence = halflight_change(job.get(), k); ++k) {
+      told = told || std::string(sentence).find("was not reached") != std::string::npos;
+    }
+    double error = 0.0, low = 1.0, converged = -1.0;
+    REQUIRE(halflight_figure(job.get(), "error", &error) == HALFLIGHT_OK);
+    REQUIRE(halflight_figure(job.get(), "error_low", &low) == HALFLIGHT_OK);
+    REQUIRE(halflight_figure(job.get(), "converged", &converged) == HALFLIGHT_OK);
+    CAPTURE(wanted, error, low, converged);
+    CHECK(told == (wanted < 1e-3));
+    CHECK((converged == 1.0) == !told);
+    CHECK(error > 0.0);
+    CHECK(error >= low);
+  }
+  CHECK(halflight_set_number(job.get(), "seed", 1e28) == HALFLIGHT_INVALID);
+  CHECK(std::string(halflight_message(job.get())) == "seed cannot be 1e+28");
+}

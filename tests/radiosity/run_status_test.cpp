@@ -92,7 +92,7 @@ TEST_CASE("a run that has converged is not contradicted by its own audit: by a t
   CHECK(refuted > 0);
 }
 
-TEST_CASE("a run has not converged if path tracing found a quarter of the light of surfaces or picture wrong, and more than was asked for") {
+TEST_CASE("a run has not converged if path tracing found a quarter of the light of surfaces or picture wrong, and more than asked for") {
   const auto seed = test::seed();
   INFO("seed " << seed);
   radiosity::Random random{seed, 1};
