@@ -20,10 +20,9 @@ namespace apps {
 // Every decision is a sentence in SceneFile::notes. The scene is in metres, z up.
 class AddedLight {
  public:
-  // What the user chose himself.
   struct Chosen {
-    bool eye = false;    // the first camera
-    bool light = false;  // which materials shine, or that none be added
+    bool eye = false;    // Did the user choose the first camera?
+    bool light = false;  // Did he choose which materials shine, or that no lamp be added, or has the file lights besides what shines?
   };
   // `rooms`: closed shells that are seen from inside. `advice`: how to name lamps of the file's own.
   AddedLight(SceneFile& file, const std::vector<radiosity::Room>& rooms, std::string advice, Chosen chosen)

@@ -58,7 +58,7 @@ class SceneMaker {
     sides_unknown_ = !model_.tells_sides;
     if (!part(faults)) { return std::nullopt; }
     AddedLight added(file_, rooms_, "--lamp MATERIAL, one of " + list_of(names_of(file_.scene.materials)),
-                     {options_.camera.has_value(), !options_.lamps.empty() || !options_.lamps_wanted});
+                     {options_.camera.has_value(), !options_.lamps.empty() || !options_.lamps_wanted || !model_.lights.empty()});
     if (options_.lamps_wanted && !shines() && !added.light_model(faults)) { return std::nullopt; }
     if (options_.lamps_wanted && only_suns_ && !added.light_rooms_without_sun(faults)) { return std::nullopt; }
     added.look_for_light();

@@ -191,8 +191,8 @@ void Parser::own_clause(const Token& keyword, Form form, ObjectSyntax& out) {
   const std::size_t count = form == Form::vector ? 3 : form == Form::pair ? 2 : 1;
   if (!numbers(keyword, std::span(given.numbers).first(count))) { return; }
   if (form == Form::length && !(given.numbers[0] >= 1.0 / max_number)) {
-    return error(given.place, "expected a " + std::string(keyword.text) + " of at least " + formatted("%g", 1.0 / max_number) + ", found " +
-                                  shortest(given.numbers[0]));
+    return error(given.place, "expected a " + std::string(keyword.text) + " above 0, at least " + formatted("%g", 1.0 / max_number) +
+                                  ", found " + shortest(given.numbers[0]));
   }
   out.given.push_back(given);
 }

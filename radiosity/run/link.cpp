@@ -77,10 +77,12 @@ namespace detail {
   return run.refined.too_large == 0;
 }
 
-// Rounds of segments for each partly blocked link. Where what the camera sees is lit through small openings, one segment in a thousand from
-// a lamp may arrive, and of 16 none tells nothing: up to 256 are cast before a link counts as dark, as many as make four million in all.
+// Rounds of segments for each partly blocked link. Where what the camera sees is lit through small openings, one segment in ten thousand
+// from a lamp may arrive, as from a sun through a hole of some centimetres, and of 16 none tells nothing: up to 65 536 are cast before a
+// link counts as dark, as many as make four million in all.
+inline constexpr std::uint32_t most_rounds_again = 16 * patch_rounds;  // for links that are evaluated again, as the error estimate does
 [[nodiscard]] HALFLIGHT_INLINE std::uint32_t visibility_rounds(const Run& run, std::size_t links) {
-  constexpr std::size_t most_decide = 16, most_segments = std::size_t{1} << 22;
+  constexpr std::size_t most_decide = 4096, most_segments = std::size_t{1} << 22;
   if (!lit_through_openings(run.importance)) { return patch_rounds; }
   const std::size_t decide = most_segments / (segments_per_round * std::max<std::size_t>(links, 1));
   return patch_rounds * static_cast<std::uint32_t>(std::clamp(decide, std::size_t{1}, most_decide));
@@ -98,9 +100,11 @@ HALFLIGHT_INLINE void link_by_forms(Run& run) {
   }
   const NodePairs pairs = std::exchange(run.refined.linked, {});
   const bool split = may_split_links(run, pairs.size());
-  scene.evaluator.cast_rounds(visibility_rounds(run, pairs.size()));
+  const std::uint32_t rounds = visibility_rounds(run, pairs.size());
+  scene.evaluator.cast_rounds(rounds);
   run.evaluated = make_links({scene.evaluator, run.refined.occluders, scene.threads, scene.control}, pairs, run.solution.links,
                              split ? &run.doubts : nullptr);
+  scene.evaluator.cast_rounds(std::min(rounds, most_rounds_again));
 }
 
 // Splits links whose light varies over their ends in a way that they cannot express.

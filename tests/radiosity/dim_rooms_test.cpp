@@ -14,6 +14,7 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
+#include <raycast/box.hpp>
 #include <raycast/objects/box.hpp>
 #include <raycast/objects/csg.hpp>
 #include <raycast/objects/csg_tree.hpp>
@@ -70,6 +71,29 @@ TwoRooms two_rooms(Random& random) {
   return rooms;
 }
 
+// The same with a hole of centimetres, and instead of the bright room a sun before it.
+TwoRooms camera_obscura(Random& random) {
+  const auto in = [&](double lo, double hi) { return lo + (hi - lo) * random.uniform(); };
+  TwoRooms rooms;
+  rooms.dim = {in(3, 5), in(3, 4), in(2.4, 3.0)};
+  rooms.reflectance = in(0.4, 0.8);
+  const double wall = in(0.02, 0.1), side = in(0.03, 0.06), y = in(1, rooms.dim.y - 1), z = in(1, rooms.dim.z - 1);
+  rooms.hole_lo = {rooms.dim.x, y, z};
+  rooms.hole_hi = {rooms.dim.x, y + side, z + side};
+  const auto part = [](const std::string& name, const glm::dvec3& lo, const glm::dvec3& hi) {
+    return raycast::CsgNode{raycast::BoxObject::make(lo, hi).object, name, {}, {}, {}};
+  };
+  raycast::CsgNode house{{}, "house", raycast::CsgOperation::subtract, {}, {}};
+  house.parts = {part("outside", glm::dvec3{-0.2}, rooms.dim + glm::dvec3{wall, 0.2, 0.2}), part("dim", glm::dvec3{0.0}, rooms.dim),
+                 part("hole", rooms.hole_lo - glm::dvec3{0.1, 0, 0}, rooms.hole_hi + glm::dvec3{wall + 0.1, 0, 0})};
+  rooms.scene.materials = {{"wall", Color{rooms.reflectance}, Color{0.0}}, {"sun", Color{0.0}, Color{1e6}}};
+  rooms.scene.objects = {scenes::object("house", raycast::Csg::make(house).object)};
+  const glm::dvec3 sun{40.0, y + in(-1, 1), z + in(-1, 1)};
+  rooms.scene.objects.push_back(
+      scenes::plate("sun", {sun, sun + glm::dvec3{0, 0, 2}, sun + glm::dvec3{0, 2, 2}, sun + glm::dvec3{0, 2, 0}}, 1));
+  return rooms;
+}
+
 double absorbed_in_dim_room(const TwoRooms& rooms) {
   const glm::dvec3 eye = 0.5 * rooms.dim;
   radiosity::Control control;
@@ -82,7 +106,8 @@ double absorbed_in_dim_room(const TwoRooms& rooms) {
   double sum = 0.0;
   for (std::size_t i = 0; i < s.hierarchy.size(); ++i) {
     const radiosity::Node& node = s.hierarchy[i];
-    if (!node.leaf() || node.is_cluster() || node.object != 0 || s.frame.to_scene(node.centre).x > rooms.dim.x + 1e-3) { continue; }
+    const raycast::Box room{glm::dvec3{-1e-3}, rooms.dim + 1e-3};
+    if (!node.leaf() || node.is_cluster() || node.object != 0 || !room.contains(s.frame.to_scene(node.centre))) { continue; }
     sum += s.area[i] * s.radiosity[i].x;
   }
   return sum / (s.frame.scale * s.frame.scale) * (1.0 - rooms.reflectance) / rooms.reflectance;
@@ -134,4 +159,24 @@ TEST_CASE("a dim room that is lit through a small hole alone gets what comes thr
   off.pop_back();
   CAPTURE(off);
   CHECK(std::sqrt(std::inner_product(off.begin(), off.end(), off.begin(), 0.0) / (trials - 1)) < 0.13);
+}
+
+// Of the segments between the sun and a wall one in some thousand passes the hole. With 256 most rooms were dark; with as many as make four
+// million in all for the few links of the sun, its light is some 20 % off. The worst room of eight is left out: where one of the few paths
+// from the eye meets the spot by chance, the room is not taken for a dim one.
+TEST_CASE("a dark room into which a sun shines through a hole of centimetres gets what comes through", "[accuracy]") {
+  const auto seed = test::seed();
+  INFO("seed " << seed);
+  Random random{seed, 2};
+  constexpr int trials = 8;
+  std::vector<double> off;
+  for (int trial = 0; trial < trials; ++trial) {
+    const TwoRooms rooms = camera_obscura(random);
+    off.push_back(std::abs(std::log(absorbed_in_dim_room(rooms) / comes_through(rooms, random))));
+  }
+  std::sort(off.begin(), off.end());
+  off.pop_back();
+  CAPTURE(off);
+  CHECK(off[trials / 2] < 0.3);
+  CHECK(off.back() < 0.7);
 }
