@@ -27,6 +27,8 @@ namespace apps {
 namespace {
 
 constexpr std::size_t most_lamps = 64;  // that are added
+// Closed rooms that together are smaller than this share of a model are no rooms: hollows of its parts, such as the tank of a car.
+constexpr double least_rooms = 0.5;
 
 }  // namespace
 
@@ -173,7 +175,11 @@ bool AddedLight::light_rooms_without_sun(std::vector<std::string>& faults) {
 
 bool AddedLight::light_model(std::vector<std::string>& faults) {
   const std::vector<raycast::Box> closed = closed_rooms();
-  if (!closed.empty()) { return add_room_lamps(closed) || refused(faults); }
+  raycast::Box all;
+  for (const raycast::Box& room : closed) { all.extend(room); }
+  if (!closed.empty() && all.diameter() >= least_rooms * radiosity::bounds_without_strays(file_.scene).diameter()) {
+    return add_room_lamps(closed) || refused(faults);
+  }
   std::vector<raycast::Box> rooms = rooms_of_cameras();
   bool hidden = false;
   if (file_.cameras.empty()) {

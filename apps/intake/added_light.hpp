@@ -30,7 +30,8 @@ class AddedLight {
 
   // A model without any lamp gets lamps under the ceilings of its closed rooms, or of the rooms that its cameras stand in, or of one that
   // nobody sees from outside, because light from outside would not reach these. If it has none, it is put into a studio, so that it can be
-  // seen: floor, walls, and a lamp in the ceiling. Returns false, and a fault, if no lamp fits into its closed rooms.
+  // seen: floor, walls, and a lamp in the ceiling. Returns false, and a fault, if no lamp fits into its closed rooms. Hollows of its parts,
+  // much smaller than it, are no rooms.
   bool light_model(std::vector<std::string>& faults);
 
   // Such rooms get lamps, too, if a sun lights nothing that is seen.

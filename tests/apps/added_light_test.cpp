@@ -235,3 +235,20 @@ TEST_CASE("a model of which its own lamps light hardly anything is put into a st
     CHECK_FALSE(noted(as_chosen->notes, "put into a studio"));
   }
 }
+
+// A closed box with walls of a thickness: alone it is a room.
+TEST_CASE("a model with a hollow part, such as the tank of a car, is put into a studio, the hollow thing alone lit within") {
+  for (const bool alone : {false, true}) {
+    apps::Model model;
+    model.groups = {"car"};
+    model.materials = {{"grey", radiosity::Color(0.5)}};
+    add_box(model, {0, 0, 0}, {1, 1, 0.5}, false);
+    add_box(model, {0.05, 0.05, 0.05}, {0.95, 0.95, 0.45}, true);
+    if (!alone) { add_box(model, {-2, -1, 0.6}, {3, 2, 2}, false); }
+    std::vector<std::string> faults;
+    const auto file = apps::to_scene(std::move(model), apps::UpAxis::z, {}, faults);
+    REQUIRE(file);
+    CHECK(noted(file->notes, "put into a studio") == !alone);
+    CHECK(noted(file->notes, "hangs under its ceiling") == alone);
+  }
+}
