@@ -47,6 +47,7 @@ struct FaceCounts {
   std::uint64_t uncut_shining = 0;  // those that emit before long ones were cut, whose parts are linked one by one while they are few
 
   [[nodiscard]] bool most_shine() const { return 2 * shining > all; }
+  [[nodiscard]] bool of_sky() const { return most_shine() && shining < all; }  // above those that do not
   // Too many pairs of a face that shines and any other for linking them one by one?
   [[nodiscard]] bool many_pairs() const { return shining * all > 4'000'000; }
 };

@@ -76,7 +76,7 @@ HALFLIGHT_INLINE void choose_ways_of_light(Run& run, std::uint64_t uncut_lamps) 
     run.clusters = {false, "between surfaces that do not shine light goes by stored rays"};
   } else if (run.rays.many_lamps) {
     run.clusters = {false, "lamps of many faces have clusters of their own"};
-  } else if (faces.most_shine() && !faces.many_pairs()) {
+  } else if (faces.of_sky() && !faces.many_pairs()) {
     run.clusters = {false, "most input faces shine, and are few enough to be linked one by one"};
   } else {
     run.clusters = choose_clusters(scene.hierarchy.size(), options);
