@@ -37,10 +37,10 @@ class AddedLight {
   // Such rooms get lamps, too, if a sun lights nothing that is seen.
   bool light_rooms_without_sun(std::vector<std::string>& faults);
 
-  // If the automatic view sees little of the light, adds a camera that sees more, on another side or inside a lit room; if there is none
-  // that sees any to speak of, as of a model with some shining windows, puts it into a studio, too. Of cameras of the
-  // file the first that sees a lit surface becomes the first of all, which draws the picture. If all of them see almost none, adds one that
-  // sees the model in its studio, or stands inside, or the automatic one: also as the first.
+  // If the automatic view sees little of the light, adds a camera that sees more, on another side or inside a lit room; if there is none,
+  // as of a model with some shining windows, puts it into a studio, too. Of cameras of the file the first that sees a lit surface becomes
+  // the first of all, which draws the picture. If all of them see almost none, adds one that sees the model in its studio, or stands
+  // inside, or the automatic one: also as the first.
   void look_for_light();
 
  private:
