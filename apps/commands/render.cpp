@@ -188,7 +188,11 @@ ExitCode write_solution(Artist& artist, const radiosity::Solution& solution, con
                     ExitCode::not_converged);
   }
   // What path tracing found wrong is told by the report; nobody had asked for an accuracy.
-  if (solution.audit.converged || solution.audit.refuted || solution.audit.far_off()) { return ExitCode::ok; }
+  using Status = radiosity::RunStatus;
+  const Status status = solution.audit.status();
+  if (status == Status::converged || status == Status::estimate_refuted || status == Status::far_off || status == Status::error_unknown) {
+    return ExitCode::ok;
+  }
   return complain("not converged: the outputs show what was reached", ExitCode::not_converged);
 }
 

@@ -78,7 +78,7 @@ inline constexpr std::array<Figure, 16> figures{{
     {"rays", [](const radiosity::Baked& b) { return number(b.audit.rays); }},
     {"residual", [](const radiosity::Baked& b) { return number(b.audit.residual); }},
     {"iterations", [](const radiosity::Baked& b) { return number(b.audit.iterations); }},
-    {"converged", [](const radiosity::Baked& b) { return number(b.audit.converged); }},
+    {"converged", [](const radiosity::Baked& b) { return number(b.audit.status() == radiosity::RunStatus::converged); }},
     {"interrupted", [](const radiosity::Baked& b) { return number(b.audit.interrupted); }},
     {"coarsened", [](const radiosity::Baked& b) { return number(b.audit.coarsened); }},
     {"epsilon", [](const radiosity::Baked& b) { return number(b.audit.epsilon); }},

@@ -55,10 +55,10 @@ struct MeshRefinement {
 };
 
 // What became of a run. If several hold, the first in this order is told.
-enum class RunStatus { interrupted, out_of_memory, target_missed, estimate_refuted, far_off, not_converged, converged };
+enum class RunStatus { interrupted, out_of_memory, target_missed, estimate_refuted, not_converged, far_off, error_unknown, converged };
 inline constexpr const char* name(RunStatus status) {
-  constexpr const char* names[] = {"interrupted", "out of memory", "target missed", "estimate refuted",
-                                   "far off",     "not converged", "converged"};
+  constexpr const char* names[] = {"interrupted",   "out of memory", "target missed", "estimate refuted",
+                                   "not converged", "far off",       "error unknown", "converged"};
   return names[static_cast<int>(status)];
 }
 
@@ -68,8 +68,9 @@ struct Audit {
            : !shortage.empty() ? RunStatus::out_of_memory
            : target_missed     ? RunStatus::target_missed
            : refuted           ? RunStatus::estimate_refuted
-           : far_off()         ? RunStatus::far_off
            : !converged        ? RunStatus::not_converged
+           : far_off()         ? RunStatus::far_off
+           : error_unknown()   ? RunStatus::error_unknown
                                : RunStatus::converged;
   }
 
@@ -79,6 +80,12 @@ struct Audit {
     constexpr double much = 0.25;
     const auto more = [&](const std::optional<ErrorEstimate>& error) { return error && error->above(std::max(much, asked)); };
     return more(surface_error) || more(leaf_error) || (picture_error && more(picture_error->error));
+  }
+
+  // May more than half of the light of the surfaces be wrong, as far as the links and an audit tell that could not find it?
+  [[nodiscard]] bool error_unknown() const {
+    constexpr double most = 0.5;
+    return surface_error && !surface_error->within(most) && estimated_error && *estimated_error > most;
   }
 
   // time
@@ -116,7 +123,7 @@ struct Audit {
   double residual = 0.0;
   std::uint32_t iterations = 0;
   std::vector<std::vector<double>> histories;  // by channel: the relative residual at the start and after each iteration
-  // Residual reached and, if an error target was requested, that target. Without a target: not refuted, and surfaces not far off.
+  // Residual reached and, if an error target was requested, that target. Without a target: not refuted.
   bool converged = true;
   bool interrupted = false;  // stopped early with the best solution so far; its error may not be measured
   bool coarsened = false;    // F-refinement used larger thresholds than requested, because it was interrupted or short of memory

@@ -119,7 +119,7 @@ HALFLIGHT_INLINE void compare_with_estimate(Run& run) {
   if (!found.empty()) { audit.estimate_doubt = found; }
   audit.asked = run.options.error.value_or(run.bf_refined() && !run.options.time ? run.options.target : 0.0);
   audit.refuted = audit.converged && refuted && !(audit.asked > 0.0);
-  audit.converged = audit.converged && !audit.refuted && !audit.far_off();
+  audit.converged = audit.converged && !audit.refuted;
 }
 
 // Checks whether BF-refinement has met its target, by its own estimate and, if there is one, by the audit.

@@ -32,7 +32,8 @@ void check_agrees(const Run& run, const json::Value& report, double target) {
   const std::string status = report["status"].string();
   INFO(status << ", exit code " << run.code << "\n" << run.out << run.err);
   CHECK(report["converged"].boolean() == (status == "converged"));
-  CHECK(run.code == (status == "converged" || status == "estimate refuted" || status == "far off" ? 0 : 4));
+  const bool solved = status == "converged" || status == "estimate refuted" || status == "far off" || status == "error unknown";
+  CHECK(run.code == (solved ? 0 : 4));
   if (target > 0.0) { CHECK(status != "estimate refuted"); }
   const json::Value& error = report["error"];
   if (status == "converged") {
@@ -69,8 +70,8 @@ TEST_CASE("no run says that it has converged where its audit contradicts that, a
   CHECK(refuted > 0);
 }
 
-// The sun shines through a hole of 4 cm, which nothing but its rays find.
-TEST_CASE("a run whose picture path tracing finds far off says so, and its worst part is no better than the whole") {
+// The sun shines through a hole of 4 cm, which few of its rays find, and fewer paths.
+TEST_CASE("a run whose light neither links nor path tracing find for sure has not converged") {
   const Place place;
   place.write("a.scene",
               "material coal reflectance .001\nmaterial chalk reflectance .9\nmaterial sun reflectance 0 emission 1e6\n"
@@ -82,9 +83,10 @@ TEST_CASE("a run whose picture path tracing finds far off says so, and its worst
   INFO(run.out << run.err);
   const json::Value report = json::parse(place.read("a.json"));
   const json::Value& picture = report["error"]["picture"];
-  const bool far_off = picture["low"].number() > 0.25;
-  CHECK((report["status"].string() == "converged") == !far_off);
-  if (report["error"]["picture"]["worst_tile"].is_object()) { CHECK(picture["worst_tile"]["high"].number() >= picture["low"].number()); }
+  CHECK((report["status"].string() == "far off" || report["status"].string() == "error unknown"));
+  CHECK_FALSE(report["converged"].boolean());
+  const bool known = picture.is_object() && picture["worst_tile"].is_object();
+  if (known) { CHECK(picture["worst_tile"]["high"].number() >= picture["low"].number()); }
   CHECK(run.code == 0);
 }
 
