@@ -91,6 +91,9 @@ class Running {
   halflight_job& job_;
 };
 
+// Light beyond the range of float is the largest float, not infinite.
+float as_float(double x) { return static_cast<float>(std::min<double>(x, std::numeric_limits<float>::max())); }
+
 // Copies the components of the vectors to `out`, which has room for `count` vectors.
 template <class Vector>
 halflight_status copy(halflight_job* job, const std::vector<Vector>& list, const char* name, float* out, std::size_t count) {
@@ -99,7 +102,7 @@ halflight_status copy(halflight_job* job, const std::vector<Vector>& list, const
     return refuse(job, "there are " + std::to_string(list.size()) + " " + name + ", and room for " + std::to_string(count));
   }
   for (const Vector& vector : list) {
-    for (int k = 0; k < Vector::length(); ++k) { *out++ = static_cast<float>(vector[k]); }
+    for (int k = 0; k < Vector::length(); ++k) { *out++ = as_float(vector[k]); }
   }
   return HALFLIGHT_OK;
 }
@@ -276,7 +279,7 @@ halflight_status halflight_at(const halflight_job* job, size_t triangle, const f
   const auto color = job->baked->light.radiosity(triangle, {point[0], point[1], point[2]},
                                                  back != 0 ? radiosity::FaceSide::back : radiosity::FaceSide::front);
   if (!color) { return HALFLIGHT_NOTHING; }
-  for (int k = 0; k < 3; ++k) { rgb[k] = static_cast<float>((*color)[k]); }
+  for (int k = 0; k < 3; ++k) { rgb[k] = as_float((*color)[k]); }
   return HALFLIGHT_OK;
 }
 

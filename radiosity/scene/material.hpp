@@ -13,6 +13,8 @@
 
 #include <glm/vec3.hpp>
 
+#include <radiosity/support/number_text.hpp>
+
 namespace radiosity {
 
 // One value per channel: red, green, blue.
@@ -30,11 +32,11 @@ struct Material {
     const double rho = material.reflectance[c];
     const double emission = material.emission[c];
     if (!(rho >= 0.0 && rho <= 1.0)) {
-      return "material '" + material.name + "': reflectance " + std::to_string(rho) +
+      return "material '" + material.name + "': reflectance " + number_text(rho) +
              " lies outside [0, 1]; a surface cannot reflect more than it receives";
     }
     if (!(emission >= 0.0 && std::isfinite(emission))) {
-      return "material '" + material.name + "': emission " + std::to_string(emission) + " is not a finite number from 0 on";
+      return "material '" + material.name + "': emission " + number_text(emission) + " is not a finite number from 0 on";
     }
   }
   return std::nullopt;

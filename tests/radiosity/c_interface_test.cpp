@@ -131,3 +131,19 @@ TEST_CASE("C interface: an error that was not reached is told, and none is told 
   CHECK(halflight_set_number(job.get(), "seed", 1e28) == HALFLIGHT_INVALID);
   CHECK(std::string(halflight_message(job.get())) == "seed cannot be 1e+28");
 }
+
+TEST_CASE("C interface: light beyond the range of float is finite") {
+  const Job job(halflight_create(), &halflight_destroy);
+  REQUIRE(job);
+  const double bright[3] = {1e42, 1.0, 0.0};
+  REQUIRE(halflight_add_material(job.get(), "lamp", grey, bright) == 0);
+  REQUIRE(halflight_set_positions(job.get(), corners.data(), 4, 3) == HALFLIGHT_OK);
+  REQUIRE(halflight_set_triangles(job.get(), triangles.data(), 2, nullptr) == HALFLIGHT_OK);
+  REQUIRE(halflight_run(job.get()) == HALFLIGHT_OK);
+  std::array<float, 12> colors{};
+  REQUIRE(halflight_read(job.get(), HALFLIGHT_VERTEX_COLORS, colors.data(), 4) == HALFLIGHT_OK);
+  CHECK(colors[0] == std::numeric_limits<float>::max());
+  CHECK(colors[1] == 1.0f);
+  CHECK(halflight_add_material(job.get(), "mirror", bright, nullptr) == -HALFLIGHT_INVALID);
+  CHECK(std::string(halflight_message(job.get())).find("reflectance 1e+42 lies outside") != std::string::npos);
+}
