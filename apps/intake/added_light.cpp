@@ -44,7 +44,7 @@ void AddedLight::look_for_light() {
   }
   if (cameras.empty()) { return choose_view(views); }
   if (dark.empty()) { return; }
-  const bool first = !chosen_.eye && dark[0] == 0, all = dark.size() == count;
+  const bool first = !fixed_.eye && dark[0] == 0, all = dark.size() == count;
   std::string sentence = dark.size() == 1 ? "camera '" + cameras[dark[0]].name + "' sees" : counted(dark.size(), "camera") + " see";
   sentence += " next to nothing that a lamp shines on";
   const auto taken_by = [&](const radiosity::Camera& other) {
@@ -68,7 +68,7 @@ void AddedLight::look_for_light() {
     radiosity::Camera outside = radiosity::automatic_camera(file_.scene);
     if (views.lit_share(outside) >= LightViews::tol_dark) { better = std::move(outside); }
   }
-  if (better && !chosen_.eye) { sentence += first ? taken_by(*better) : "; --camera inside stands in the room of a lamp"; }
+  if (better && !fixed_.eye) { sentence += first ? taken_by(*better) : "; --camera inside stands in the room of a lamp"; }
   note(std::move(sentence));
   if (better) { cameras.insert(first ? cameras.begin() : cameras.end(), *std::move(better)); }
 }
@@ -102,7 +102,7 @@ void AddedLight::choose_view(const LightViews& views) {
     const std::size_t seen = LightViews::many_more * views.surfaces(inside->camera);
     return inside->reach < LightViews::nook && (views.surfaces(automatic) >= seen || views.surfaces(best) >= seen);
   };
-  if (most < LightViews::hardly_any && !chosen_.light && (within < LightViews::hardly_any || in_nook())) {
+  if (most < LightViews::hardly_any && !fixed_.light && (within < LightViews::hardly_any || in_nook())) {
     return add_studio("its own lamps light hardly anything of what is seen of it");
   }
   const bool lantern = inside && most >= LightViews::tol_dark && views.lamp_share(inside->camera) > LightViews::in_lantern;
@@ -122,10 +122,11 @@ std::vector<raycast::Box> AddedLight::closed_rooms() const {
     return !room.within_walls || file_.cameras.empty() ||
            std::any_of(file_.cameras.begin(), file_.cameras.end(), [&](const radiosity::Camera& c) { return room.bounds.contains(c.eye); });
   };
-  const bool any = std::any_of(rooms_.begin(), rooms_.end(), seen);
-  for (const radiosity::Room& room : rooms_) {
-    if (any) { rooms.push_back(room.bounds); }
-  }
+  if (std::none_of(rooms_.begin(), rooms_.end(), seen)) { return rooms; }
+  raycast::Box all;
+  for (const radiosity::Room& room : rooms_) { all.extend(room.bounds); }
+  if (all.diameter() < least_rooms * radiosity::bounds_without_strays(file_.scene).diameter()) { return rooms; }
+  for (const radiosity::Room& room : rooms_) { rooms.push_back(room.bounds); }
   return rooms;
 }
 
@@ -175,11 +176,7 @@ bool AddedLight::light_rooms_without_sun(std::vector<std::string>& faults) {
 
 bool AddedLight::light_model(std::vector<std::string>& faults) {
   const std::vector<raycast::Box> closed = closed_rooms();
-  raycast::Box all;
-  for (const raycast::Box& room : closed) { all.extend(room); }
-  if (!closed.empty() && all.diameter() >= least_rooms * radiosity::bounds_without_strays(file_.scene).diameter()) {
-    return add_room_lamps(closed) || refused(faults);
-  }
+  if (!closed.empty()) { return add_room_lamps(closed) || refused(faults); }
   std::vector<raycast::Box> rooms = rooms_of_cameras();
   bool hidden = false;
   if (file_.cameras.empty()) {

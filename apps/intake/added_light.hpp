@@ -20,13 +20,14 @@ namespace apps {
 // Every decision is a sentence in SceneFile::notes. The scene is in metres, z up.
 class AddedLight {
  public:
-  struct Chosen {
-    bool eye = false;    // Did the user choose the first camera?
-    bool light = false;  // Did he choose which materials shine, or that no lamp be added, or has the file lights besides what shines?
+  // What remains as it is.
+  struct Fixed {
+    bool eye = false;    // the first camera, because the user chose it
+    bool light = false;  // what shines, because the user chose it, or wants no lamp, or because the file has lights besides
   };
   // `rooms`: closed shells that are seen from inside. `advice`: how to name lamps of the file's own.
-  AddedLight(SceneFile& file, const std::vector<radiosity::Room>& rooms, std::string advice, Chosen chosen)
-      : file_(file), rooms_(rooms), advice_(std::move(advice)), chosen_(chosen) {}
+  AddedLight(SceneFile& file, const std::vector<radiosity::Room>& rooms, std::string advice, Fixed fixed)
+      : file_(file), rooms_(rooms), advice_(std::move(advice)), fixed_(fixed) {}
 
   // A model without any lamp gets lamps under the ceilings of its closed rooms, or of the rooms that its cameras stand in, or of one that
   // nobody sees from outside, because light from outside would not reach these. If it has none, it is put into a studio, so that it can be
@@ -55,7 +56,7 @@ class AddedLight {
   SceneFile& file_;
   const std::vector<radiosity::Room>& rooms_;
   std::string advice_;
-  Chosen chosen_;
+  Fixed fixed_;
   std::optional<radiosity::Camera> studio_view_;  // of the model alone
 };
 

@@ -108,9 +108,8 @@ HALFLIGHT_INLINE std::optional<PictureError> PictureAudit::measure(const ShownPi
     result.audited += sample.valid ? sample.weight : 0.0;
   }
   result.audited /= all;
-  const auto [over2, over8] = shares_off(picture, measured);
-  result.over2 = over2;
-  result.over8 = over8;
+  const std::array<ShareBounds, 2> shares = shares_off(picture, measured);
+  result.over2 = shares[0], result.over8 = shares[1];
   result.worst = worst_tile(picture, measured);
   // The worst tile is no better than the whole: then most of the error is where too few of the pixels lie for a tile of their own.
   if (result.worst && result.worst->error.high < error->low) { result.worst.reset(); }

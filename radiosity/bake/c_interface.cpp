@@ -245,6 +245,7 @@ halflight_status halflight_run(halflight_job* job) {
       job->changes.push_back("the error that was asked for was not reached" +
                              (audit.rounds_ended_by.empty() ? std::string() : ": ended by " + audit.rounds_ended_by));
     }
+    if (audit.error_unknown()) { job->changes.push_back("more than half of the light may be wrong; path tracing cannot tell"); }
     if (audit.far_off()) { job->changes.push_back("path tracing found the result more than a quarter off"); }
     return HALFLIGHT_OK;
   });

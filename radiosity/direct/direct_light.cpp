@@ -52,11 +52,6 @@ inline constexpr double large_lamp = 0.25;
 inline constexpr std::size_t fine_samples = 4096;
 inline constexpr std::size_t most_fine = 4;
 
-// Upper limit of DirectLight::off_surface, relative to the diameter of small objects: one in eight is smaller. And a lower limit, above
-// the rounding of positions in double precision.
-inline constexpr double off_small = 0.01, least_off_surface = 1e-12;
-inline constexpr std::size_t one_small_in = 8;
-
 // A rectangle around the facets, in a plane with this normal.
 [[nodiscard]] HALFLIGHT_INLINE std::array<glm::dvec3, 4> rectangle_around(const Facets& facets, const glm::dvec3& n) {
   const glm::dvec3 origin = facets.facets[0].contour[0];
@@ -173,9 +168,10 @@ HALFLIGHT_INLINE void DirectLight::set_tolerances(const raycast::Box& dark) {
     diameters.push_back(box.diameter());
   }
   if (diameters.empty()) { return; }
-  const auto small = diameters.begin() + static_cast<std::ptrdiff_t>(diameters.size() / detail::one_small_in);
+  constexpr double off_small = 0.01, above_rounding = 1e-12;  // shadows move by a hundredth of a small object, one in 8 being smaller
+  const auto small = diameters.begin() + static_cast<std::ptrdiff_t>(diameters.size() / 8);
   std::nth_element(diameters.begin(), small, diameters.end());
-  off_surface_ = std::max(detail::least_off_surface, std::min(off_surface_ * size, detail::off_small * *small));
+  off_surface_ = std::max(above_rounding, std::min(off_surface_ * size, off_small * *small));
 }
 
 HALFLIGHT_INLINE void DirectLight::mark_behind(Lamp& lamp) const {

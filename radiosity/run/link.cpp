@@ -77,10 +77,11 @@ namespace detail {
   return run.refined.too_large == 0;
 }
 
+inline constexpr std::uint32_t most_rounds_again = 16 * patch_rounds;  // for links that are evaluated again, as the error estimate does
+
 // Rounds of segments for each partly blocked link. Where what the camera sees is lit through small openings, one segment in ten thousand
 // from a lamp may arrive, as from a sun through a hole of some centimetres, and of 16 none tells nothing: up to 65 536 are cast before a
 // link counts as dark, as many as make four million in all.
-inline constexpr std::uint32_t most_rounds_again = 16 * patch_rounds;  // for links that are evaluated again, as the error estimate does
 [[nodiscard]] HALFLIGHT_INLINE std::uint32_t visibility_rounds(const Run& run, std::size_t links) {
   constexpr std::size_t most_decide = 4096, most_segments = std::size_t{1} << 22;
   if (!lit_through_openings(run.importance)) { return patch_rounds; }

@@ -133,7 +133,6 @@ TEST_CASE("a stone lantern is looked at from outside, not from within its chambe
   CHECK((file->cameras.empty() || glm::length(file->cameras[0].eye - middle) > 2.0));
 }
 
-// Flat boxes close under the ceiling, as ceiling lamps are, over furniture.
 // Above the panel and between the plates everything is bright; from outside only the small part of the picture that the luminaire fills.
 TEST_CASE("a luminaire with plates above its panel is looked at from outside, not from between them") {
   apps::Model model;
@@ -150,6 +149,7 @@ TEST_CASE("a luminaire with plates above its panel is looked at from outside, no
   CHECK((file->cameras.empty() || !raycast::Box{{-0.05, -0.05, 0}, {12.05, 1.05, 0.35}}.contains(file->cameras[0].eye)));
 }
 
+// Flat boxes close under the ceiling, as ceiling lamps are, over furniture.
 TEST_CASE("the camera in a house stands at the height of an eye and sees what lamps shine on") {
   const unsigned seed = test::seed();
   INFO("seed " << seed);

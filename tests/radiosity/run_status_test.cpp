@@ -71,7 +71,7 @@ TEST_CASE("a run that has converged is not contradicted by its own audit: by a t
     const radiosity::Audit audit = scenes::solved(scene, options).audit;
     const RunStatus status = audit.status();
     CAPTURE(k, by_target, options.target, options.epsilon, name(status));
-    CHECK(audit.converged == (status == RunStatus::converged || status == RunStatus::far_off || status == RunStatus::error_unknown));
+    CHECK((status == RunStatus::converged) == (audit.converged && !audit.far_off() && !audit.error_unknown()));
     bool larger = false;  // is an error more than three times its estimate?
     const auto compare = [&](const std::optional<double>& estimate, const std::optional<radiosity::ErrorEstimate>& error) {
       if (!estimate || !error) { return; }
