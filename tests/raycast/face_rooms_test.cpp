@@ -252,7 +252,8 @@ TEST_CASE("patches that see each other in a room of faces: their pair is clear w
   SEEDED(random);
   std::size_t clear = 0, free = 0;
   for (int turn = 0; turn < 60; ++turn) {
-    const Furnished f = furnished(random, any_shape(random));
+    const Shape shape = any_shape(random);
+    const Furnished f = furnished(random, shape);
     const Scene scene(f.world.objects);
     for (int i = 0; i < 60; ++i) {
       const Facet &a = f.world.faces[random.below(static_cast<std::uint32_t>(f.world.faces.size()))],
@@ -276,6 +277,7 @@ TEST_CASE("patches that see each other in a room of faces: their pair is clear w
       const std::uint32_t expected = by_law(scene, segments);
       if (list.clear()) { REQUIRE(expected == 0); }
       REQUIRE(scene.occluded16(segments, list, hint) == expected);
+      if (shape == Shape::crossing) { continue; }  // not kept as faces: double precision decides
       clear += list.clear();
       free += expected == 0;
     }
