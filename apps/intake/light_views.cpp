@@ -227,7 +227,7 @@ std::optional<LightViews::Chosen> LightViews::inside() const {
     double met = 0.0;  // share of the rays that meet anything
   };
   std::vector<Candidate> views, close;  // close: before something that fills half of the picture; only if there are no others
-  double most = 0.0;
+  double most = 0.0;                    // that a view shows which is none of a nook
   const auto look = [&](const glm::dvec3& middle) {
     const std::optional<radiosity::Camera> camera = across_room(middle);
     if (!camera) { return; }
@@ -239,7 +239,7 @@ std::optional<LightViews::Chosen> LightViews::inside() const {
     const Candidate view{{*camera, of.met * shown(of, 0.0), reach / size_}, of.met};
     if (reach < blocked * share_below(std::move(distances), 0.9)) { return close.push_back(view); }
     views.push_back(view);
-    most = std::max(most, view.view.lit);
+    if (view.view.reach >= nook) { most = std::max(most, view.view.lit); }
   };
   const double off = 1e-4 * size_;
   for (std::size_t i = 0; i < std::min(most_lamps, lamps_.size()); ++i) {

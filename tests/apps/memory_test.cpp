@@ -69,6 +69,33 @@ TEST_CASE("render --memory: refused with a sentence, or the best within the limi
   CHECK(wrong.code == 2);
 }
 
+TEST_CASE("render --memory with a picture: within the limit by the system's own count, or refused before the run") {
+  const program::Place place;
+  int drawn = 0, refused = 0;
+  for (const char* scene : {"sphere", "cornell", "room"}) {
+    for (const char* picture : {"--size 100x80", "--size 400x300", "--size 500x400 --method mesh"}) {
+      for (const int megabytes : {40, 60, 110}) {
+        CAPTURE(scene, picture, megabytes);
+        const program::Run run =
+            place.run("render '" HALFLIGHT_SCENES "/" + std::string(scene) + ".scene' --quiet --audit 100 --threads 1 " + picture +
+                      " -o a.png --json a.json --memory " + std::to_string(megabytes) + "M");
+        if (run.code == 1) {
+          ++refused;
+          CHECK(run.err.find("the picture takes ") != std::string::npos);
+          CHECK_FALSE(place.has("a.png"));
+          continue;
+        }
+        ++drawn;
+        CHECK((run.code == 0 || run.code == 4));
+        CHECK(json::parse(place.read("a.json"))["peak_bytes"]["process"].number() <= 1e6 * megabytes);
+        for (const char* output : {"a.png", "a.json"}) { std::filesystem::remove(place.path() / output); }
+      }
+    }
+  }
+  CHECK(drawn > 12);
+  CHECK(refused > 3);
+}
+
 TEST_CASE("whatever the address space is limited to, a picture is drawn or refused with a sentence, and no signal ends the program") {
   const program::Place place;
   int refused = 0;

@@ -87,6 +87,36 @@ TEST_CASE("a house that shows its light from outside through windows alone is lo
   }
 }
 
+// A ring of light under the ceiling of a hall, around a core of stone in which there is a closet with a small lamp: below the middle of the
+// ring one stands in the closet.
+TEST_CASE("a hall around a lit closet is looked at, not the closet") {
+  apps::Model model;
+  model.groups = {"house", "ring", "lamp"};
+  model.materials = {{"grey", radiosity::Color(0.5)}, {"lamp", radiosity::Color(0.0), radiosity::Color(100.0)}};
+  const raycast::Box closet{{5.8, 3.8, 2.5}, {6.2, 4.2, 2.95}};
+  add_box(model, {0, 0, 0}, {12, 8, 3}, true);
+  add_box(model, {-0.2, -0.2, -0.2}, {12.2, 8.2, 3.2}, false);
+  add_box(model, {4, 2, 0.01}, {8, 6, 2.99}, false);
+  add_box(model, closet.lo, closet.hi, true);
+  add_box(model, {5.98, 3.98, 2.93}, {6.02, 4.02, 2.94}, false, 1);
+  const auto first = static_cast<std::uint32_t>(model.positions.size());
+  const double outer[4][2] = {{1, 1}, {11, 1}, {11, 7}, {1, 7}}, inner[4][2] = {{1.5, 1.5}, {10.5, 1.5}, {10.5, 6.5}, {1.5, 6.5}};
+  for (const auto& p : outer) { model.positions.push_back({p[0], p[1], 2.9}); }
+  for (const auto& p : inner) { model.positions.push_back({p[0], p[1], 2.9}); }
+  for (std::uint32_t i = 0; i < 4; ++i) {  // faces down
+    const std::uint32_t next = (i + 1) % 4;
+    const std::uint32_t corners[] = {first + i, first + 4 + i, first + 4 + next, first + next};
+    model.polygon(corners, 1, 1);
+  }
+  std::vector<std::string> faults;
+  const auto file = apps::to_scene(std::move(model), apps::UpAxis::z, {}, faults);
+  REQUIRE(file);
+  REQUIRE(file->cameras.size() == 1);
+  CAPTURE(file->cameras[0].eye.x, file->cameras[0].eye.y, file->cameras[0].eye.z);
+  CHECK_FALSE(closet.contains(file->cameras[0].eye));
+  CHECK(raycast::Box{{0, 0, 0}, {12, 8, 3}}.contains(file->cameras[0].eye));
+}
+
 // Walls seen from both sides, as many formats have them: the outside is black, and through the open end much of what is seen is lit.
 TEST_CASE("a corridor with an open end is looked at from within, a niche through its opening") {
   for (const double length : {3.0, 6.0}) {
