@@ -19,11 +19,11 @@
 #include <radiosity/result/audit.hpp>
 #include <radiosity/result/error_estimate.hpp>
 #include <radiosity/result/mesh.hpp>
+#include <radiosity/result/out_of_memory.hpp>
 #include <radiosity/result/outcome.hpp>
 #include <radiosity/result/stopwatch.hpp>
 #include <radiosity/scene/material.hpp>
 #include <radiosity/scene/options.hpp>
-#include <radiosity/support/memory.hpp>
 
 namespace radiosity {
 
@@ -37,10 +37,6 @@ inline constexpr std::uint64_t work_budget = 40'000'000;
 // Rays that the audits of all rounds together may take beyond their shares, to confirm the target (AuditGoal::reserve). They are spent
 // only where refining would cost more. About ten seconds.
 inline constexpr std::uint64_t reserve_of_audits = 40'000'000;
-
-// Memory limit of a round, in bytes, when Options::memory is not set. Needed because a lamp a millimetre from a wall would be
-// refined endlessly.
-inline constexpr std::uint64_t memory_of_rounds = 2'000'000'000;
 
 namespace detail {
 
@@ -66,7 +62,7 @@ class Rounds {
     round_.min_area = 3.84e-3;
     round_.target = 0.16;
     round_.audit_reserve = reserve_of_audits;
-    if (!round_.memory) { round_.memory = memory_of_rounds; }
+    round_.memory = options.allowed_memory();
   }
 
   [[nodiscard]] const Options& options() const { return round_; }
@@ -181,9 +177,7 @@ HALFLIGHT_INLINE Outcome solve_to_error(const Options& options,
   audit.target_missed = !(best_error && best_error->within(wanted));
   if (audit.target_missed) {
     if (audit.shortage.empty()) { audit.shortage = std::move(later_shortage); }
-    if (!audit.shortage.empty() && !options.memory) {
-      audit.shortage += "; no limit was set (--memory), so " + memory_text(memory_of_rounds) + " was that of each round";
-    }
+    if (!audit.shortage.empty() && !options.memory) { audit.shortage += limit_by_default(); }
     audit.rounds_ended_by = audit.interrupted ? "an interruption" : !audit.shortage.empty() ? "want of memory" : ended_by;
   }
   audit.converged = audit.converged && !audit.interrupted && audit.shortage.empty() && !audit.target_missed;

@@ -134,7 +134,7 @@ struct Audit {
   std::optional<double> estimated_error, estimated_leaf_error;
   std::string estimate_doubt;     // why the estimate is no bound of the error, or far above it; empty if it may be taken as one
   double asked = 0.0;             // Options::error, or ::target of BF-refinement; 0: no accuracy was asked for
-  bool target_missed = false;     // of Options::error, by the audit; of Options::target, by the estimate or the audit
+  bool target_missed = false;     // of Options::error, by the audit; of Options::target, by the audit, or by the estimate where it cannot tell
   bool refuted = false;           // without a target: did the audit find more than three times the estimated error?
   std::string rounds_ended_by;    // if Options::error was missed: the reason why the rounds ended, such as "three rounds without gain"
   std::uint32_t generations = 0;  // of BF-refinement

@@ -122,12 +122,13 @@ HALFLIGHT_INLINE void compare_with_estimate(Run& run) {
   audit.converged = audit.converged && !audit.refuted;
 }
 
-// Checks whether BF-refinement has met its target, by its own estimate and, if there is one, by the audit.
+// Checks whether BF-refinement has met its target: by the audit, if there is one that can tell, else by its own estimate.
 HALFLIGHT_INLINE void check_target(Run& run) {
   Audit& audit = run.solution.audit;
   const std::optional<ErrorEstimate>& error = run.options.reconstruction != Reconstruction::none ? audit.surface_error : audit.leaf_error;
-  const bool contradicted = error && error->above(run.options.target);
-  audit.target_missed = !(*audit.estimated_error <= run.options.target) || contradicted;
+  const double target = run.options.target;
+  const bool contradicted = error && error->above(target), confirmed = error && error->within(target);
+  audit.target_missed = contradicted || !(confirmed || *audit.estimated_error <= target);
   audit.converged = audit.converged && !audit.target_missed;
 }
 

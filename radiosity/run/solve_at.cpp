@@ -63,7 +63,8 @@ HALFLIGHT_INLINE void tell_shortage(Audit& audit, const Failure& failure, const 
 HALFLIGHT_INLINE Outcome solve_within_memory(const Scene& scene, const Options& options, const Control& control, std::uint64_t held) {
   MemoryBudget budget;
   budget.arrays = options.arrays;
-  if (options.memory) { budget.allowed = *options.memory - std::min(*options.memory, held); }
+  const std::optional<std::uint64_t> allowed = options.allowed_memory();
+  if (allowed) { budget.allowed = *allowed - std::min(*allowed, held); }
   std::uint32_t solved = 0;
   budget.solved = &solved;
   std::vector<StageTime> lost;
@@ -84,6 +85,12 @@ HALFLIGHT_INLINE Outcome solve_within_memory(const Scene& scene, const Options& 
       }
       return again;
     });
+  }
+  if (!options.memory && allowed) {
+    if (outcome.solution && !outcome.solution->audit.shortage.empty()) { outcome.solution->audit.shortage += limit_by_default(); }
+    if (outcome.failure.kind == Failure::Kind::out_of_memory && !outcome.failure.sentences.empty()) {
+      outcome.failure.sentences.front() += limit_by_default();
+    }
   }
   return outcome;
 }

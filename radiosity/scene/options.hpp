@@ -122,12 +122,20 @@ struct Options {
   // nodes, links and pairs before they are made (memory.hpp). A run that would need more ends with the best solution that fits and
   // reports it in audit.shortage: that of the last generation of BF-refinement, of the last round towards an error target, or of
   // F-refinement with larger epsilon and min_area (audit.coarsened). If not even the coarsest solution fits, there is none
-  // (Failure::Kind::out_of_memory).
+  // (Failure::Kind::out_of_memory). If none is set, allowed_memory() is taken.
   std::optional<std::uint64_t> memory = {};
   // Memory for the arrays that grow with nodes, links, pairs and rays, including those of the Solution (big_array.hpp); null: the heap.
   // It must outlive the Solution and is used by several threads at once. BReps, contours and the mesh stay on the heap.
   std::pmr::memory_resource* arrays = nullptr;
   std::uint64_t seed = 1;
+
+  // The limit on memory that holds: `memory`, or else 2 GB for a run towards an accuracy, which may be out of reach: the light of a lamp a
+  // millimetre from a wall would be refined endlessly. Nothing: no limit.
+  [[nodiscard]] std::optional<std::uint64_t> allowed_memory() const {
+    const bool towards_accuracy = error || (refinement == Refinement::a_posteriori && !time);
+    return memory || !towards_accuracy ? memory : std::optional(memory_towards_accuracy);
+  }
+  static constexpr std::uint64_t memory_towards_accuracy = 2'000'000'000;
 };
 
 // One sentence for every invalid option; empty if a run can begin.

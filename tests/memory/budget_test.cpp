@@ -181,6 +181,19 @@ TEST_CASE("memory limit of an error target: the round before, and it says so") {
   CHECK(run.outcome.solution->audit.rounds_ended_by == "want of memory");
 }
 
+TEST_CASE("memory limit of a run towards an accuracy: 2 GB if none is set") {
+  Options options{.refinement = radiosity::Refinement::a_posteriori, .target = 0.02};
+  CHECK(options.allowed_memory() == 2'000'000'000u);
+  options.time = 5.0;
+  CHECK_FALSE(options.allowed_memory());
+  options = {.refinement = radiosity::Refinement::a_priori};
+  CHECK_FALSE(options.allowed_memory());
+  options.error = 0.02;
+  CHECK(options.allowed_memory() == 2'000'000'000u);
+  options.memory = 3'000'000;
+  CHECK(options.allowed_memory() == 3'000'000u);
+}
+
 TEST_CASE("memory limit of a dense matrix: refused before it is made") {
   radiosity::UniformOptions options;
   options.max_area = 1.0 / 1500.0;
