@@ -34,6 +34,10 @@ inline constexpr std::uint64_t link_budget = 10'000'000;
 // about a microsecond each. It depends neither on the target nor on what the audits found.
 inline constexpr std::uint64_t work_budget = 40'000'000;
 
+// Before this much work rounds without gain end nothing: the next round costs little, and it may be the first to find light that passes
+// through an opening smaller than the patches before it.
+inline constexpr std::uint64_t work_before_giving_up = work_budget / 2;
+
 // Rays that the audits of all rounds together may take beyond their shares, to confirm the target (AuditGoal::reserve). They are spent
 // only where refining would cost more. About ten seconds.
 inline constexpr std::uint64_t reserve_of_audits = 40'000'000;
@@ -97,7 +101,8 @@ class Rounds {
     if (work_ + 2 * work > work_budget) {
       return "its limit of work, as much as " + std::to_string(work_budget / 1'000'000) + " million rays";
     }
-    return floor ? "the finest thresholds" : without_gain_ == 3 ? "three rounds without gain" : "";
+    const bool in_vain = without_gain_ >= 3 && work_ >= work_before_giving_up;
+    return floor ? "the finest thresholds" : in_vain ? "three rounds without gain" : "";
   }
 
  private:

@@ -146,6 +146,32 @@ TEST_CASE("error target: however the noise of the audits falls, the rounds are t
   }
 }
 
+// As if the light that causes the error passed through an opening that only the patches of round `found` are small enough for.
+TEST_CASE("error target: rounds without gain end a run only once they are a good part of the work that it may do") {
+  const auto ended = [](std::size_t found, std::uint64_t links_of_round) {
+    std::size_t rounds = 0;
+    const auto solve_round = [&](const radiosity::Options& round, auto) {
+      const double error = rounds++ < found ? 0.2 : 0.01;
+      radiosity::Solution solution;
+      solution.audit.light_epsilon = round.epsilon;
+      solution.audit.links = links_of_round;
+      solution.audit.steering_error = solution.audit.surface_error =
+          radiosity::ErrorEstimate{error, 0.01 * error, 0.98 * error, 1.02 * error};
+      return radiosity::Outcome{std::move(solution), {}};
+    };
+    const radiosity::Outcome outcome = radiosity::detail::solve_to_error({.error = 0.02}, solve_round);
+    REQUIRE(outcome.solution);
+    CHECK(outcome.solution->audit.target_missed == (rounds <= found));
+    return std::pair{rounds, outcome.solution->audit.rounds_ended_by};
+  };
+  for (const std::size_t found : {1u, 5u, 9u}) {
+    CHECK(ended(found, 1000) == std::pair{found + 1, std::string()});  // each is done in a millisecond
+  }
+  const auto [rounds, reason] = ended(9, 6'000'000);  // in seconds
+  CHECK(rounds < 9);
+  CHECK(reason == "three rounds without gain");
+}
+
 TEST_CASE("error target: the verdict on a picture is that of its last audit, whatever those of the rounds found") {
   const auto seed = test::seed();
   INFO("seed " << seed);
