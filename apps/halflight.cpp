@@ -17,7 +17,7 @@ int main(int argc, char** argv) {
                                                  apps::exercise_command(), apps::figures_command()};
     return static_cast<int>(apps::run_program(commands, argc, argv));
   } catch (const std::bad_alloc&) {
-    apps::complain("out of memory; a larger --epsilon or --min-area needs less");
+    apps::complain("out of memory; a smaller scene needs less, and so does render with a larger --epsilon or --min-area");
   } catch (const std::exception& error) { apps::complain(std::string("failed: ") + error.what()); }
   return static_cast<int>(apps::ExitCode::failure);
 }

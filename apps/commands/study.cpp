@@ -238,8 +238,9 @@ ExitCode run(const StudyOptions& given) {
   progress.done();
   if (code == ExitCode::usage) { return code; }
   if (control.cancelled()) {
-    complain(part.study.scenes.empty() ? "interrupted; nothing was written" : "interrupted; what was finished is written");
-    code = ExitCode::failure;
+    const bool nothing = part.study.scenes.empty();
+    complain(nothing ? "interrupted; nothing was written" : "interrupted; what was finished is written");
+    code = nothing ? ExitCode::failure : ExitCode::not_converged;
   }
   if (options.part) {
     if (code != ExitCode::ok) { return code; }  // half a part must not be mistaken for a whole one

@@ -79,6 +79,22 @@ TEST_CASE("every command under every signal leaves no file that was not there, o
   }
 }
 
+TEST_CASE("a study that is interrupted writes what is finished and has not converged, or writes nothing and has failed") {
+  int finished = 0;
+  for (const char* seconds : {"0.2", "2", "8"}) {
+    const Place place;
+    const Run run =
+        place.run("study " + program::scene("two_plates") + " " + program::scene("primitives") + " -o study --quiet --threads 1",
+                  std::string("timeout --preserve-status -k 60 -s INT ") + seconds + " ");
+    INFO(seconds << "\n" << run.err);
+    const bool written = run.err.find("what was finished is written") != std::string::npos;
+    CHECK(run.code == (written ? 4 : 1));
+    CHECK(place.has("study/index.html") == written);
+    finished += written ? 1 : 0;
+  }
+  CHECK(finished > 0);
+}
+
 TEST_CASE("a signal ends the program at once while it reads a model: there is nothing to show yet") {
   const Place place;
   std::string obj;
