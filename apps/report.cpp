@@ -233,7 +233,9 @@ class Text {
     }
     constexpr const char* shows[] = {"of the mesh", "of the objects, in gathered light"};
     const auto method = static_cast<std::size_t>(report_.picture ? report_.picture->method : PictureMethod::mesh);
-    say("lightmap", "{lightmap.width} x {lightmap.height}, texels of {lightmap.texel} m");
+    const bool coarser = report_.lightmap && report_.lightmap->coarser;
+    say("lightmap", "{lightmap.width} x {lightmap.height}, texels of {lightmap.texel} m",
+        coarser ? ", larger than asked for, because such small ones do not fit into a picture" : "");
     say("picture", std::string("{picture.width} x {picture.height}, ") + shows[method] + ", camera {picture.camera}");
     if (report_.picture) { row("", "--camera \"" + camera_text(report_.picture->camera) + "\""); }
   }

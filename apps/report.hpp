@@ -35,7 +35,8 @@ struct PictureReport {
 struct LightmapReport {
   unsigned width = 0;
   unsigned height = 0;
-  double texel = 0.0;  // metres
+  double texel = 0.0;    // metres
+  bool coarser = false;  // than asked for, because the finer one would not fit into a picture
 };
 
 struct Report {

@@ -54,7 +54,8 @@ std::optional<ExportMesh> exported_mesh(const RenderOptions& options, const Scen
   const auto format = *render_format(options.lightmap);
   outputs.push_back({options.lightmap, format == RenderFormat::png ? mesh->texture : encoded(texture->picture, format, tone)});
   report.files.push_back(options.lightmap);
-  report.lightmap = LightmapReport{texture->picture.width, texture->picture.height, texture->texel};
+  report.lightmap =
+      LightmapReport{texture->picture.width, texture->picture.height, texture->texel, options.texel && *options.texel < texture->texel};
   return mesh;
 }
 

@@ -113,6 +113,17 @@ TEST_CASE("lightmap: the finer its texels, the closer to the light of the mesh, 
   CHECK(off[1] < 0.005);
 }
 
+TEST_CASE("lightmap: texels that are larger than asked for are told") {
+  const program::Place place;
+  const std::string render = "render " + program::scene("two_plates") + " --audit 0 --quiet -o a.glb --lightmap a.hdr --texel ";
+  for (const auto& [texel, told] : {std::pair{"1e-9", true}, {"0.05", false}}) {
+    const program::Run run = place.run(render + texel);
+    CAPTURE(texel, run.out, run.err);
+    CHECK(run.code == 0);
+    CHECK((run.out.find(" m, larger than asked for") != std::string::npos) == told);
+  }
+}
+
 TEST_CASE("lightmap: render writes it beside a GLB and an OBJ, of the user's polygons in their order as well") {
   const program::Place place;
   place.write("room.obj", models::room_obj);
