@@ -96,6 +96,10 @@ struct SceneFile {
 // Reads a file by the name that the scene gives it: returns its bytes, or nothing and a sentence such as "cannot be opened: ...".
 using SideFile = std::function<std::optional<std::string>(const std::string& name, std::string& fault)>;
 
+// The same; a file that is missing there is looked for with ever fewer of its folders, at last beside the scene: many files contain paths
+// of the computer on which they were written, or are passed on without a folder around them.
+[[nodiscard]] std::optional<std::string> there_or_beside(const std::string& name, const SideFile& side_file, std::string& fault);
+
 struct SceneResult : ErrorReport {
   std::optional<SceneFile> file;  // nothing if there are errors
 };

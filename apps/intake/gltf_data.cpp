@@ -84,7 +84,7 @@ std::optional<std::string_view> GltfData::buffer(std::size_t index, std::string&
       fault = "the data of " + who + " are not base64";
     } else if (const auto name = file_of_uri(text)) {
       std::string reason;
-      loaded_[index] = side_file_(*name, reason);
+      loaded_[index] = there_or_beside(*name, side_file_, reason);
       fault = "the file '" + *name + "' " + reason;
     } else {
       fault = who + " is not in this file nor beside it";
@@ -178,7 +178,7 @@ std::optional<std::string> GltfData::picture(std::size_t image) {
   const std::string_view uri = given["uri"].string();
   if (uri.starts_with("data:")) { return data_of(uri); }
   const auto name = file_of_uri(uri);
-  return name && side_file_ ? side_file_(*name, fault) : std::nullopt;
+  return name && side_file_ ? there_or_beside(*name, side_file_, fault) : std::nullopt;
 }
 
 bool GltfData::elements(const Elements& at, std::vector<double>& out, std::string& fault) {

@@ -42,15 +42,6 @@ std::optional<radiosity::Color> color(const Lines& lines) {
   return c;
 }
 
-// Reads a file by its name. Many files contain paths of the computer on which they were written, so a missing file is looked
-// for beside this one.
-std::optional<std::string> file_of_name(const std::string& name, const SideFile& side_file, std::string& fault) {
-  auto bytes = side_file(name, fault);
-  const std::size_t folder = name.find_last_of("/\\");
-  std::string ignored;
-  return bytes || folder == std::string::npos ? bytes : side_file(name.substr(folder + 1), ignored);
-}
-
 // The name of the picture after map_Kd, which may contain blanks and be preceded by options: -o, -s and -t with up to three numbers, -mm
 // with two, others with one word each.
 std::string picture_of(const Lines& lines) {
@@ -80,7 +71,7 @@ class ObjMaterials {
 
   void read(const std::string& library) {
     std::string fault;
-    const auto text = file_of_name(library, side_file_, fault);
+    const auto text = there_or_beside(library, side_file_, fault);
     if (!text) { return notes_.add("the materials in " + mesh_file::shown(library) + " are not known: it " + fault); }
     ModelMaterial* material = nullptr;  // null: one that no face has
     Pictured pictured;
@@ -190,7 +181,7 @@ class ObjMaterials {
     const bool reflects = same_letters(lines.words()[0], "map_kd");
     const std::shared_ptr<const Picture>& picture = pictured.pictures.of(name, [&] {
       std::string fault;
-      const auto bytes = file_of_name(name, side_file_, fault);
+      const auto bytes = there_or_beside(name, side_file_, fault);
       if (!bytes) { notes_.add("a picture on surfaces is not there: " + mesh_file::shown(name) + " " + fault, place); }
       return bytes ? Picture::read(*bytes) : nullptr;
     });

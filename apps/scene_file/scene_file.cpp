@@ -70,6 +70,15 @@ std::string camera_text(const radiosity::Camera& camera) {
          (up == glm::dvec3(0.0, 0.0, 1.0) ? std::string() : " up" + triple(up, 1.0)) + formatted(" fov %.6g", camera.field_of_view);
 }
 
+std::optional<std::string> there_or_beside(const std::string& name, const SideFile& side_file, std::string& fault) {
+  auto bytes = side_file(name, fault);
+  std::string ignored;
+  for (std::size_t end = name.find_first_of("/\\"); !bytes && end != std::string::npos; end = name.find_first_of("/\\", end + 1)) {
+    if (end + 1 < name.size()) { bytes = side_file(name.substr(end + 1), ignored); }
+  }
+  return bytes;
+}
+
 std::optional<std::string> read_text(const std::string& path, std::string& fault) {
   const auto refuse = [&fault](std::string sentence) {
     fault = std::move(sentence);

@@ -42,6 +42,16 @@ TEST_CASE("glTF: text with its data, a file beside it, and the binary form say t
   CHECK(scene("a.glb", Sample().glb()).scene.objects[1].shape->sheet_count() == 1);  // one face, behind the studio
 }
 
+TEST_CASE("glTF: a buffer is looked for without those of its folders that are not there") {
+  const Sample sample;
+  for (const std::string lost : {"", "assets/", "../old/assets/"}) {
+    for (const std::string kept : {"", "data/", "data/of it/"}) {
+      CAPTURE(lost, kept);
+      CHECK(read("a.gltf", sample.text(lost + kept + "a.bin"), {{kept + "a.bin", sample.binary}}).polygons() == 2);
+    }
+  }
+}
+
 TEST_CASE("glTF: nodes place what is below them") {
   for (const unsigned seed : {1U, 2U, 3U}) {
     CAPTURE(seed);
