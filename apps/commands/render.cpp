@@ -84,11 +84,12 @@ ExitCode check(const RenderOptions& options) {
   return check_outputs(all_outputs(options), {options.scene, options.light});
 }
 
-ExitCode report_failure(const radiosity::Failure& failure, const std::string& scene) {
+// `of_limit`: to be added to the sentence of a run that ran out of memory.
+ExitCode report_failure(const radiosity::Failure& failure, const std::string& scene, const std::string& of_limit = {}) {
   using Kind = radiosity::Failure::Kind;
   if (failure.kind == Kind::cancelled) { return complain("interrupted; nothing was written", ExitCode::failure); }
   if (failure.kind == Kind::out_of_memory) {
-    return complain(failure.sentences.empty() ? "out of memory" : failure.sentences.front(), ExitCode::failure);
+    return complain((failure.sentences.empty() ? "out of memory" : failure.sentences.front()) + of_limit, ExitCode::failure);
   }
   if (failure.kind == Kind::invalid_options) {
     for (const std::string& sentence : failure.sentences) { complain(sentence); }
@@ -98,25 +99,24 @@ ExitCode report_failure(const radiosity::Failure& failure, const std::string& sc
   return ExitCode::invalid_input;
 }
 
-// The part of --memory that is left for the run, after what the program and the scene hold now. By measurement (examples and 340 models of
-// others), on top of the peak of the run, which is not given back, a picture takes up to 80 bytes a pixel; in gathered light 300, for what
-// is seen there, and half of that peak.
-std::optional<std::uint64_t> memory_left(const RenderOptions& options, const radiosity::Camera& camera) {
+// How --memory is shared out. By measurement (examples and 340 models of others) a picture takes up to 80 bytes a pixel on top of the peak
+// of the run, which is not given back, and one in gathered light 270, for what is seen there, and tables that grow with the solution, for
+// which the run's own prediction of its peak, often a third too high, leaves room.
+struct MemoryShares {
+  std::uint64_t held = 0;     // by the program and the scene, before the run
+  std::uint64_t picture = 0;  // 0: there is none
+  [[nodiscard]] std::string text() const {
+    return "the program and the scene hold " + radiosity::memory_text(held) + " before the run" +
+           (picture > 0 ? ", and the picture takes " + radiosity::memory_text(picture) : std::string());
+  }
+};
+
+MemoryShares memory_shares(const RenderOptions& options, const radiosity::Camera& camera) {
   constexpr std::uint64_t unread = 4'000'000;  // parts of the program itself that are loaded only when they are executed
-  const std::uint64_t held = resident_memory().value_or(0) + unread;
   const radiosity::PictureSize size = options.size.value_or(camera.size.value_or(radiosity::PictureSize{}));
   const bool gathered = options.method == PictureMethod::gather;
-  const std::uint64_t tables = gathered ? 16'000'000 : 4'000'000, pixel = gathered ? 300 : 80;  // bytes
-  const std::uint64_t picture = has_picture(options) ? tables + pixel * size.width * size.height : 0;
-  if (held + picture >= *options.memory) {
-    complain("--memory allows " + radiosity::memory_text(*options.memory) + ", but the program and the scene hold " +
-             radiosity::memory_text(held) + " before the run" +
-             (picture > 0 ? ", and the picture takes " + radiosity::memory_text(picture) : std::string()) + "; allow more" +
-             (picture > 0 ? std::string(" or make the picture smaller") + (gathered ? " or of the mesh (--method mesh)" : "") : ""));
-    return std::nullopt;
-  }
-  const std::uint64_t left = *options.memory - held - picture;
-  return picture > 0 && gathered ? left / 3 * 2 : left;
+  const std::uint64_t tables = gathered ? 12'000'000 : 4'000'000, pixel = gathered ? 270 : 80;  // bytes
+  return {resident_memory().value_or(0) + unread, has_picture(options) ? tables + pixel * size.width * size.height : 0};
 }
 
 ExitCode write_all(const std::vector<RenderOutput>& outputs) {
@@ -168,7 +168,7 @@ ExitCode draw_light(const RenderOptions& options, const radiosity::Control& cont
 
 // Writes the outputs of a solution and the report.
 ExitCode write_solution(Artist& artist, const radiosity::Solution& solution, const radiosity::Options& settings,
-                        const radiosity::Control& control, Progress& progress) {
+                        const std::string& of_limit, const radiosity::Control& control, Progress& progress) {
   const RenderOptions& options = artist.options();
   Report report;
   report.scene = options.scene;
@@ -182,7 +182,7 @@ ExitCode write_solution(Artist& artist, const radiosity::Solution& solution, con
   if (const ExitCode code = write_all(outputs); code != ExitCode::ok) { return code; }
   if (!print(to_text(report), all_outputs(options))) { return ExitCode::failure; }
   if (!solution.audit.shortage.empty()) {
-    return complain(solution.audit.shortage + "; the outputs show the best solution so far", ExitCode::not_converged);
+    return complain(solution.audit.shortage + of_limit + "; the outputs show the best solution so far", ExitCode::not_converged);
   }
   if (report.audit.interrupted) {
     const bool of_mesh = report.picture && report.picture->method != options.method;
@@ -244,17 +244,28 @@ ExitCode run(const RenderOptions& options) {
   control.cancel = &watch_interrupts();  // from here on there may be something to show; until here a signal ends the program
 
   radiosity::Options settings = solver_options(options);
+  std::string of_limit;  // what else takes part of it, for the sentence of a run that it ends
   if (options.memory) {
-    settings.memory = memory_left(options, *camera);
-    if (!settings.memory) { return ExitCode::failure; }
+    const MemoryShares others = memory_shares(options, *camera);
+    const std::string limit = "--memory allows " + radiosity::memory_text(*options.memory);
+    if (others.held + others.picture >= *options.memory) {
+      const bool gathered = options.method == PictureMethod::gather;
+      return complain(
+          limit + ", but " + others.text() + "; allow more" +
+              (others.picture > 0 ? std::string(" or make the picture smaller") + (gathered ? " or of the mesh (--method mesh)" : "")
+                                  : std::string()),
+          ExitCode::failure);
+    }
+    settings.memory = *options.memory - others.held - others.picture;
+    if (others.picture > 0) { of_limit = "; " + limit + ", of which " + others.text(); }
   }
   Artist artist(options, *file, *camera);
   judge_by_picture(options, settings, artist, control);
   const radiosity::Outcome outcome = radiosity::solve(file->scene, settings, control);
   progress.done();
-  if (!outcome.solution) { return report_failure(outcome.failure, options.scene); }
+  if (!outcome.solution) { return report_failure(outcome.failure, options.scene, of_limit); }
 
-  return write_solution(artist, *outcome.solution, settings, control, progress);
+  return write_solution(artist, *outcome.solution, settings, of_limit, control, progress);
 }
 
 }  // namespace

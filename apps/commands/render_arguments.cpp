@@ -67,15 +67,17 @@ std::vector<Argument> refinement_arguments(RenderOptions& options) {
           "refine until the measured relative L2 error is at most this; out of reach, that is at 10 million links, the work "
           "of 40 million rays (one to three minutes of CPU time; audits take as much again, or twice and 40 million rays more to show "
           "that it is met), 2 GB "
-          "without --memory, the finest thresholds or after three rounds without gain, it ends with the best solution and exit "
+          "without --memory, the finest thresholds or after half of that work and three rounds without gain, it ends with the best "
+          "solution and exit "
           "code 4"),
       one_of<std::optional<ErrorOf>, ErrorOf>(
           "--error-of", options.error_of, {{"picture", ErrorOf::picture}, {"surfaces", ErrorOf::surfaces}},
           "what --error and --mesh-error are about: picture, what the camera sees (the default of --error with a picture, of --mesh-error "
           "with nothing but pictures), or surfaces, all of them by area"),
-      bf(above_zero(
-             "--target", solver.target, 1.0,
-             "BF-refinement (paper 4.4), split by the light that links carry, until the estimated relative L2 error is at most this"))
+      bf(above_zero("--target", solver.target, 1.0,
+                    "BF-refinement (paper 4.4), split by the light that links carry, until the relative L2 error is at most this, as the "
+                    "audit finds it or, where that cannot tell, as the links let "
+                    "expect; in 2 GB without --memory"))
           .without({"--error"}),
       bf(above_zero("--time", solver.time, 1e6,
                     "BF-refinement, what promises most first, for this many seconds; the audit and the picture come on top"))
@@ -162,7 +164,8 @@ std::vector<Argument> solver_arguments(RenderOptions& options) {
           .without({"--error"}),
       flag("--no-shortcuts", solver.shortcuts, "do all that the report would tell as left out; the result is the same, to the bit", false),
       parsed("--memory", "BYTES", options.memory, parse_memory, memory_form,
-             "most memory that the program may hold, such as 500M or 2G; a run that would need more ends before"),
+             "most memory that the program may hold, such as 500M or 2G; a run that would need more ends before (meshes, pages and "
+             "lightmaps are made after it, and not counted)"),
       text("--json", "FILE", options.json, "write the report as JSON, too"),
       flag("--quiet", options.quiet, "no narration and no progress bar"),
   };

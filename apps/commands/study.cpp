@@ -238,12 +238,12 @@ ExitCode run(const StudyOptions& given) {
   progress.done();
   if (code == ExitCode::usage) { return code; }
   if (control.cancelled()) {
-    const bool nothing = part.study.scenes.empty();
+    const bool nothing = options.part || part.study.scenes.empty();  // half a part must not be mistaken for a whole one
     complain(nothing ? "interrupted; nothing was written" : "interrupted; what was finished is written");
     code = nothing ? ExitCode::failure : ExitCode::not_converged;
   }
   if (options.part) {
-    if (code != ExitCode::ok) { return code; }  // half a part must not be mistaken for a whole one
+    if (code != ExitCode::ok) { return code; }
     const std::string path = (fs::path(options.folder) / study::part_file(part.number)).string();
     return save(path, study::to_bytes(part)) && print("written: " + path + "\n") ? ExitCode::ok : ExitCode::failure;
   }

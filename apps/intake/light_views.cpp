@@ -227,7 +227,7 @@ std::optional<LightViews::Chosen> LightViews::inside() const {
     double met = 0.0;  // share of the rays that meet anything
   };
   std::vector<Candidate> views, close;  // close: before something that fills half of the picture; only if there are no others
-  double most = 0.0;                    // that a view shows which is none of a nook
+  double most_of_rooms = 0.0;           // light that a view shows which sees further than a nook
   const auto look = [&](const glm::dvec3& middle) {
     const std::optional<radiosity::Camera> camera = across_room(middle);
     if (!camera) { return; }
@@ -239,7 +239,7 @@ std::optional<LightViews::Chosen> LightViews::inside() const {
     const Candidate view{{*camera, of.met * shown(of, 0.0), reach / size_}, of.met};
     if (reach < blocked * share_below(std::move(distances), 0.9)) { return close.push_back(view); }
     views.push_back(view);
-    if (view.view.reach >= nook) { most = std::max(most, view.view.lit); }
+    if (view.view.reach >= nook) { most_of_rooms = std::max(most_of_rooms, view.view.lit); }
   };
   const double off = 1e-4 * size_;
   for (std::size_t i = 0; i < std::min(most_lamps, lamps_.size()); ++i) {
@@ -247,8 +247,9 @@ std::optional<LightViews::Chosen> LightViews::inside() const {
     look({box.centre().x, box.centre().y, box.lo.z - off});
     look({box.centre().x, box.centre().y, box.hi.z + off});
   }
-  for (std::size_t i = 0; i < points_.size() && most < enough; ++i) { look(points_[i].position + off * points_[i].normal); }
+  for (std::size_t i = 0; i < points_.size() && most_of_rooms < enough; ++i) { look(points_[i].position + off * points_[i].normal); }
   if (views.empty()) { views.swap(close); }
+  double most = 0.0;
   for (const Candidate& candidate : views) { most = std::max(most, candidate.view.lit); }
   std::erase_if(views, [&](const Candidate& candidate) { return candidate.view.lit < as_bright * most; });
   double closed = 0.0;

@@ -71,10 +71,14 @@ std::string camera_text(const radiosity::Camera& camera) {
 }
 
 std::optional<std::string> there_or_beside(const std::string& name, const SideFile& side_file, std::string& fault) {
+  constexpr int most_folders = 16;
   auto bytes = side_file(name, fault);
-  std::string ignored;
-  for (std::size_t end = name.find_first_of("/\\"); !bytes && end != std::string::npos; end = name.find_first_of("/\\", end + 1)) {
-    if (end + 1 < name.size()) { bytes = side_file(name.substr(end + 1), ignored); }
+  std::string rest = name, ignored;
+  for (int i = 0; i < most_folders && !bytes; ++i) {
+    const std::size_t end = i + 1 < most_folders ? rest.find_first_of("/\\") : rest.find_last_of("/\\");
+    if (end == std::string::npos) { break; }
+    rest.erase(0, end + 1);
+    if (!rest.empty() && rest != "-" && !rest.starts_with("..")) { bytes = side_file(rest, ignored); }
   }
   return bytes;
 }

@@ -19,7 +19,6 @@
 #include <radiosity/result/audit.hpp>
 #include <radiosity/result/error_estimate.hpp>
 #include <radiosity/result/mesh.hpp>
-#include <radiosity/result/out_of_memory.hpp>
 #include <radiosity/result/outcome.hpp>
 #include <radiosity/result/stopwatch.hpp>
 #include <radiosity/scene/material.hpp>
@@ -66,7 +65,6 @@ class Rounds {
     round_.min_area = 3.84e-3;
     round_.target = 0.16;
     round_.audit_reserve = reserve_of_audits;
-    round_.memory = options.allowed_memory();
   }
 
   [[nodiscard]] const Options& options() const { return round_; }
@@ -182,7 +180,6 @@ HALFLIGHT_INLINE Outcome solve_to_error(const Options& options,
   audit.target_missed = !(best_error && best_error->within(wanted));
   if (audit.target_missed) {
     if (audit.shortage.empty()) { audit.shortage = std::move(later_shortage); }
-    if (!audit.shortage.empty() && !options.memory) { audit.shortage += limit_by_default(); }
     audit.rounds_ended_by = audit.interrupted ? "an interruption" : !audit.shortage.empty() ? "want of memory" : ended_by;
   }
   audit.converged = audit.converged && !audit.interrupted && audit.shortage.empty() && !audit.target_missed;

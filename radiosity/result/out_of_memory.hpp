@@ -6,11 +6,8 @@
 #include <new>
 #include <optional>
 #include <stdexcept>
-#include <string>
 
 #include <radiosity/result/outcome.hpp>
-#include <radiosity/scene/options.hpp>
-#include <radiosity/support/memory.hpp>
 
 namespace radiosity {
 
@@ -34,11 +31,6 @@ template <class Attempt>
 #else
   return attempt();
 #endif
-}
-
-// The end of the sentence of a run that ended at a limit that nobody had set.
-[[nodiscard]] inline std::string limit_by_default() {
-  return "; no limit was set (--memory), so " + memory_text(Options::memory_towards_accuracy) + " was taken";
 }
 
 }  // namespace detail

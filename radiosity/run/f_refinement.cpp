@@ -144,7 +144,7 @@ HALFLIGHT_INLINE void refine_coarsely(Run& run) {
 }
 
 HALFLIGHT_INLINE std::string too_large(const Run& run, std::uint64_t needed) {
-  return too_much_memory(needed, run.scene.budget.allowed,
+  return too_much_memory(needed, run.scene.budget,
                          run.options.error               ? "a larger error needs less"
                          : run.scene.budget.a_posteriori ? "a larger target needs less"
                                                          : "a larger epsilon or min_area needs less");

@@ -43,7 +43,7 @@ namespace detail {
   if (spacing.cancelled) { return cancelled(); }
   if (spacing.too_large > 0) {
     return Failure{Failure::Kind::out_of_memory,
-                   {too_much_memory(spacing.too_large, scene.budget.allowed, "a larger epsilon or min_area needs less")}};
+                   {too_much_memory(spacing.too_large, scene.budget, "a larger epsilon or min_area needs less")}};
   }
   // If little of the scene is lit few rays meet light, so the noise would be larger: cast more.
   const double more = std::min(4.0, 1.0 / std::sqrt(lit_part(run)));
@@ -57,7 +57,7 @@ namespace detail {
   const MemoryBudget::Counts needed{scene.hierarchy.size(), run.solution.links.size(), 0, 0, rays};
   if (!scene.budget.allows(needed)) {
     return Failure{Failure::Kind::out_of_memory,
-                   {too_much_memory(scene.budget.peak(needed), scene.budget.allowed,
+                   {too_much_memory(scene.budget.peak(needed), scene.budget,
                                     run.options.error ? "a larger error needs less" : "a larger epsilon needs less")}};
   }
   const StoredRays stored = cast_rays(scene, LeafLocator{scene.hierarchy, scene.patches, scene.inputs.size()}, counts);

@@ -65,6 +65,7 @@ HALFLIGHT_INLINE Outcome solve_within_memory(const Scene& scene, const Options& 
   budget.arrays = options.arrays;
   const std::optional<std::uint64_t> allowed = options.allowed_memory();
   if (allowed) { budget.allowed = *allowed - std::min(*allowed, held); }
+  budget.by_default = allowed && !options.memory;
   std::uint32_t solved = 0;
   budget.solved = &solved;
   std::vector<StageTime> lost;
@@ -85,12 +86,6 @@ HALFLIGHT_INLINE Outcome solve_within_memory(const Scene& scene, const Options& 
       }
       return again;
     });
-  }
-  if (!options.memory && allowed) {
-    if (outcome.solution && !outcome.solution->audit.shortage.empty()) { outcome.solution->audit.shortage += limit_by_default(); }
-    if (outcome.failure.kind == Failure::Kind::out_of_memory && !outcome.failure.sentences.empty()) {
-      outcome.failure.sentences.front() += limit_by_default();
-    }
   }
   return outcome;
 }

@@ -84,7 +84,7 @@ HALFLIGHT_INLINE std::optional<Failure> check_size(Run& run, const UniformOption
   budget.fixed = run.scene.objects.bytes() + tables;
   if (!budget.allows({run.scene.hierarchy.size()})) {
     return Failure{Failure::Kind::out_of_memory,
-                   {too_much_memory(budget.peak({run.scene.hierarchy.size()}), budget.allowed, "a larger max_area needs less")}};
+                   {too_much_memory(budget.peak({run.scene.hierarchy.size()}), budget, "a larger max_area needs less")}};
   }
   return std::nullopt;
 }

@@ -31,6 +31,7 @@ namespace radiosity {
 // The memory that a hierarchical run may take, in addition to what the process holds at its beginning.
 struct MemoryBudget {
   std::uint64_t allowed = std::numeric_limits<std::uint64_t>::max();
+  bool by_default = false;    // nobody has set this limit (Options::allowed_memory)
   std::uint64_t fixed = 0;    // independent of refinement: objects, first BReps, tables of clusters, points of the audit
   bool a_posteriori = false;  // BF-refinement stores the error of each link (MeasuredLink, evaluate.hpp)
   // BF-refinement ends with the solution of this generation, because memory ran out in the next one.
@@ -60,8 +61,9 @@ struct MemoryBudget {
 };
 
 // The sentence of a run that ended before it would have held so many bytes.
-[[nodiscard]] inline std::string too_much_memory(std::uint64_t needed, std::uint64_t allowed, const char* what_to_do) {
-  return "the run would need at least " + memory_text(needed) + " of memory and may take " + memory_text(allowed) + "; " + what_to_do;
+[[nodiscard]] inline std::string too_much_memory(std::uint64_t needed, const MemoryBudget& budget, const char* what_to_do) {
+  return "the run would need at least " + memory_text(needed) + " of memory and may take " + memory_text(budget.allowed) + "; " +
+         what_to_do + (budget.by_default ? "; no limit was set, so " + memory_text(budget.allowed) + " was taken" : std::string());
 }
 
 }  // namespace radiosity

@@ -50,6 +50,9 @@ TEST_CASE("glTF: a buffer is looked for without those of its folders that are no
       CHECK(read("a.gltf", sample.text(lost + kept + "a.bin"), {{kept + "a.bin", sample.binary}}).polygons() == 2);
     }
   }
+  std::string deep;
+  for (int i = 0; i < 100000; ++i) { deep += "a/"; }
+  CHECK(read("a.gltf", sample.text(deep + "a.bin"), {{"a.bin", sample.binary}}).polygons() == 2);  // soon
 }
 
 TEST_CASE("glTF: nodes place what is below them") {

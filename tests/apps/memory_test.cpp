@@ -69,16 +69,24 @@ TEST_CASE("render --memory: refused with a sentence, or the best within the limi
   CHECK(wrong.code == 2);
 }
 
-TEST_CASE("render --memory with a picture: within the limit by the system's own count, or refused before the run") {
+TEST_CASE("render --memory with a picture: within the limit by the system's own count, as without one if it is generous, or refused") {
   const program::Place place;
   int drawn = 0, refused = 0;
+  const auto render = [&](const std::string& arguments) {
+    return place.run("render '" HALFLIGHT_SCENES "/" + arguments + " --quiet --audit 100 --threads 1 -o a.png --json a.json");
+  };
+  const auto peak = [&] { return json::parse(place.read("a.json"))["peak_bytes"]["process"].number(); };
   for (const char* scene : {"sphere", "cornell", "room"}) {
     for (const char* picture : {"--size 100x80", "--size 400x300", "--size 500x400 --method mesh"}) {
-      for (const int megabytes : {40, 60, 110}) {
-        CAPTURE(scene, picture, megabytes);
-        const program::Run run =
-            place.run("render '" HALFLIGHT_SCENES "/" + std::string(scene) + ".scene' --quiet --audit 100 --threads 1 " + picture +
-                      " -o a.png --json a.json --memory " + std::to_string(megabytes) + "M");
+      const std::string arguments = std::string(scene) + ".scene' " + picture;
+      REQUIRE(render(arguments).code == 0);
+      const double generous = 2.5 * peak() + 130e6;  // a run predicts up to twice of what it takes
+      for (const int megabytes : {30, 60, 110, static_cast<int>(1e-6 * generous) + 1}) {
+        CAPTURE(arguments, megabytes, generous);
+        for (const char* output : {"a.png", "a.json"}) { std::filesystem::remove(place.path() / output); }
+        const program::Run run = render(arguments + " --memory " + std::to_string(megabytes) + "M");
+        CAPTURE(run.err);
+        if (1e6 * megabytes > generous) { CHECK(run.code == 0); }
         if (run.code == 1) {
           ++refused;
           CHECK(run.err.find("the picture takes ") != std::string::npos);
@@ -87,13 +95,12 @@ TEST_CASE("render --memory with a picture: within the limit by the system's own 
         }
         ++drawn;
         CHECK((run.code == 0 || run.code == 4));
-        CHECK(json::parse(place.read("a.json"))["peak_bytes"]["process"].number() <= 1e6 * megabytes);
-        for (const char* output : {"a.png", "a.json"}) { std::filesystem::remove(place.path() / output); }
+        CHECK(peak() <= 1e6 * megabytes);
       }
     }
   }
-  CHECK(drawn > 12);
-  CHECK(refused > 3);
+  CHECK(drawn > 9);    // at least all generous ones
+  CHECK(refused > 0);  // at least pictures that take more themselves
 }
 
 TEST_CASE("whatever the address space is limited to, a picture is drawn or refused with a sentence, and no signal ends the program") {
