@@ -132,11 +132,10 @@ struct Audit {
   // Relative L2, estimated from the variation that links and leaves cannot express (link_error.hpp): of a picture or of the leaves, as
   // requested; of the leaves.
   std::optional<double> estimated_error, estimated_leaf_error;
-  std::string estimate_doubt;  // why the estimate is no bound of the error, or far above it; empty if it may be taken as one
-  double asked = 0.0;          // Options::error, or ::target of BF-refinement; 0: no accuracy was asked for
-  bool target_missed =
-      false;             // of Options::error, by the audit; of Options::target, by the audit, or by the estimate where that cannot tell
-  bool refuted = false;  // without a target: did the audit find more than three times the estimated error?
+  std::string estimate_doubt;     // why the estimate is no bound of the error, or far above it; empty if it may be taken as one
+  double asked = 0.0;             // Options::error, or ::target of BF-refinement; 0: no accuracy was asked for
+  bool target_missed = false;     // of Options::error or ::target, by the audit; where that cannot tell about ::target, by the estimate
+  bool refuted = false;           // without a target: did the audit find more than three times the estimated error?
   std::string rounds_ended_by;    // if Options::error was missed: the reason why the rounds ended, such as "three rounds without gain"
   std::uint32_t generations = 0;  // of BF-refinement
   std::uint64_t audit_points = 0;
