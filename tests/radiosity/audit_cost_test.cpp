@@ -290,7 +290,7 @@ TEST_CASE("a target out of reach ends within the stated work, and after the same
       double error = 0.5;
       const radiosity::Options options{.error = wanted};
       const auto solve_round = [&](const radiosity::Options& round, auto) {
-        CHECK(round.memory.has_value());
+        CHECK(round.allowed_memory().has_value());
         radiosity::Random gain{seed, key, rounds};
         error *= 0.8 + 0.1 * gain.uniform();
         radiosity::Solution solution;
