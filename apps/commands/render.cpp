@@ -99,9 +99,9 @@ ExitCode report_failure(const radiosity::Failure& failure, const std::string& sc
   return ExitCode::invalid_input;
 }
 
-// How --memory is shared out. By measurement (examples and 340 models of others) a picture takes up to 80 bytes a pixel on top of the peak
-// of the run, which is not given back, and one in gathered light 270, for what is seen there, and tables that grow with the solution, for
-// which the run's own prediction of its peak, often a third too high, leaves room.
+// How --memory is shared out. By measurement on the examples a picture takes up to 80 bytes a pixel on top of the peak of the run, which is
+// not given back, and one in gathered light 250, for what is seen there, and tables that grow with the solution, for which the run's own
+// prediction of its peak, up to twice too high, leaves room. It is an estimate: of 340 models of others the picture of one took 930.
 struct MemoryShares {
   std::uint64_t held = 0;     // by the program and the scene, before the run
   std::uint64_t picture = 0;  // 0: there is none

@@ -63,7 +63,7 @@ struct MemoryBudget {
 // The sentence of a run that ended before it would have held so many bytes.
 [[nodiscard]] inline std::string too_much_memory(std::uint64_t needed, const MemoryBudget& budget, const char* what_to_do) {
   return "the run would need at least " + memory_text(needed) + " of memory and may take " + memory_text(budget.allowed) + "; " +
-         what_to_do + (budget.by_default ? "; no limit was set, so " + memory_text(budget.allowed) + " was taken" : std::string());
+         what_to_do + (budget.by_default ? "; no limit was set, so that of runs towards an accuracy holds" : "");
 }
 
 }  // namespace radiosity

@@ -99,7 +99,7 @@ TEST_CASE("render --memory with a picture: within the limit by the system's own 
       }
     }
   }
-  CHECK(drawn > 9);    // at least all generous ones
+  CHECK(drawn > 9);    // all generous ones, and others
   CHECK(refused > 0);  // at least pictures that take more themselves
 }
 

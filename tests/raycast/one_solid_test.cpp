@@ -101,9 +101,8 @@ World bulbs(Random& random, double scale, const dvec3& shift) {
   for (int i = 0; i < 4; ++i) {
     const double size = std::pow(10.0, random.uniform(-4, -0.3));
     dvec3 at = dvec3{1.0} + 0.9 * random.in_cube();
-    if (random.below(2)) {
-      at[static_cast<int>(random.below(3))] = random.below(2) ? 1.0 + size : 1.0 + 0.99 * size;
-    }  // on the niche's wall
+    // On a wall of the niche, or sunk into it.
+    if (random.below(2)) { at[static_cast<int>(random.below(3))] = 1.0 + (random.below(2) ? 1.0 : 0.99) * size; }
     if (random.below(2)) {
       add(Sphere::make(at, size));
     } else {
