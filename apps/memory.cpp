@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <fstream>
+#include <limits>
 
 #if defined(__GLIBC__)
 #include <malloc.h>
@@ -27,6 +28,12 @@ std::optional<std::uint64_t> status(std::string_view name) {
     return 1024 * kilobytes;
   }
   return std::nullopt;
+}
+
+void return_free_memory() {
+#if defined(__GLIBC__)
+  ::malloc_trim(0);
+#endif
 }
 
 bool reset_peak() {
@@ -58,6 +65,13 @@ std::optional<std::uint64_t> parse_memory(std::string_view text) {
   return bytes >= 1.0 && bytes < 0x1p63 ? std::optional(static_cast<std::uint64_t>(bytes)) : std::nullopt;
 }
 
+std::uint64_t memory_left(std::optional<std::uint64_t> allowed) {
+  if (!allowed) { return std::numeric_limits<std::uint64_t>::max(); }
+  return_free_memory();
+  const std::optional<std::uint64_t> held = resident_memory();
+  return held ? *allowed - std::min(*allowed, *held) : std::numeric_limits<std::uint64_t>::max();
+}
+
 std::optional<std::uint64_t> resident_memory() { return status("VmRSS"); }
 
 void leave_out_others(std::vector<radiosity::StageTime>& stages) {
@@ -68,9 +82,7 @@ void leave_out_others(std::vector<radiosity::StageTime>& stages) {
 }
 
 PeakMeter::PeakMeter() {
-#if defined(__GLIBC__)
-  ::malloc_trim(0);
-#endif
+  return_free_memory();
   if (!reset_peak()) { return; }
   before_ = resident_memory();
   // The peak of getrusage(2) may still include the program that started this one; then it has not been reset.

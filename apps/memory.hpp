@@ -20,6 +20,10 @@ inline constexpr const char* memory_form = "a number of bytes such as 500M or 2G
 // What the process holds now; nothing if the system does not tell.
 [[nodiscard]] std::optional<std::uint64_t> resident_memory();
 
+// What the process may still take if it may hold so many bytes, after free memory is returned to the system; the largest number if there
+// is no limit or the system does not tell.
+[[nodiscard]] std::uint64_t memory_left(std::optional<std::uint64_t> allowed);
+
 // The peak of getrusage(2) includes the memory of the program that started this one (its parent before exec). If the system also reports
 // this process's own peak (VmHWM), the peaks of the stages are limited to it.
 void leave_out_others(std::vector<radiosity::StageTime>& stages);

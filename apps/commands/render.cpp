@@ -100,8 +100,9 @@ ExitCode report_failure(const radiosity::Failure& failure, const std::string& sc
 }
 
 // How --memory is shared out. By measurement on the examples a picture takes up to 80 bytes a pixel on top of the peak of the run, which is
-// not given back, and one in gathered light 250, for what is seen there, and tables that grow with the solution, for which the run's own
-// prediction of its peak, up to twice too high, leaves room. It is an estimate: of 340 models of others the picture of one took 930.
+// not given back, and one in gathered light 180, for what is seen there, and tables that grow with the solution, for which the run's own
+// prediction of its peak, up to twice too high, leaves room. Where that does not suffice, as in pixels that show many things, the picture
+// shows the mesh (Artist::method).
 struct MemoryShares {
   std::uint64_t held = 0;     // by the program and the scene, before the run
   std::uint64_t picture = 0;  // 0: there is none
@@ -115,7 +116,7 @@ MemoryShares memory_shares(const RenderOptions& options, const radiosity::Camera
   constexpr std::uint64_t unread = 4'000'000;  // parts of the program itself that are loaded only when they are executed
   const radiosity::PictureSize size = options.size.value_or(camera.size.value_or(radiosity::PictureSize{}));
   const bool gathered = options.method == PictureMethod::gather;
-  const std::uint64_t tables = gathered ? 12'000'000 : 4'000'000, pixel = gathered ? 270 : 80;  // bytes
+  const std::uint64_t tables = gathered ? 12'000'000 : 4'000'000, pixel = gathered ? 180 : 80;  // bytes
   return {resident_memory().value_or(0) + unread, has_picture(options) ? tables + pixel * size.width * size.height : 0};
 }
 
@@ -138,6 +139,15 @@ std::optional<SceneFile> scene_of_light(const RenderOptions& options, const std:
   if (source) { return load_scene(*source, code); }
   code = complain(shown(options.light) + ": " + reason, ExitCode::invalid_input);
   return std::nullopt;
+}
+
+// Says that the picture could not be gathered within --memory, if so.
+ExitCode complain_of_picture(const Artist& artist) {
+  if (artist.method() == artist.options().method) { return ExitCode::ok; }
+  return complain(
+      "the picture in gathered light would take more memory than --memory allows, so it shows the mesh; allow more or make the "
+      "picture smaller",
+      ExitCode::not_converged);
 }
 
 // Draws pictures from a stored solution.
@@ -163,7 +173,7 @@ ExitCode draw_light(const RenderOptions& options, const radiosity::Control& cont
   const std::vector<RenderOutput> outputs = encode(options, *picture, tone);
   if (code = write_all(outputs); code != ExitCode::ok) { return code; }
   for (const RenderOutput& output : outputs) { text += "written: " + output.path + "\n"; }
-  return print(text, options.outputs) ? ExitCode::ok : ExitCode::failure;
+  return print(text, options.outputs) ? complain_of_picture(artist) : ExitCode::failure;
 }
 
 // Writes the outputs of a solution and the report.
@@ -189,6 +199,7 @@ ExitCode write_solution(Artist& artist, const radiosity::Solution& solution, con
     return complain(std::string("interrupted: the outputs show the best solution so far") + (of_mesh ? ", pictures its mesh" : ""),
                     ExitCode::not_converged);
   }
+  if (const ExitCode code = complain_of_picture(artist); code != ExitCode::ok) { return code; }
   // What path tracing found wrong is told by the report; nobody had asked for an accuracy.
   using Status = radiosity::RunStatus;
   const Status status = solution.audit.status();

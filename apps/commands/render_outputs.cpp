@@ -130,14 +130,14 @@ bool Artist::has_drawn(const radiosity::Mesh& mesh, const radiosity::Tone& tone)
 
 const radiosity::Picture* Artist::draw(const radiosity::Mesh& mesh, const radiosity::Frame& frame, const radiosity::Tone& tone,
                                        const radiosity::Control& control) {
-  if (!has_drawn(mesh, tone)) {
-    shown_ = light_of(mesh, tone);
-    if (options_.method == PictureMethod::mesh) {
-      picture_ = radiosity::draw(mesh, view_, tone, 4, control.cancel);
-    } else {
-      picture_ = radiosity::draw(radiosity::FinalGather{file_.scene, mesh, frame}, view_, tone, options_.solver.threads, control);
-    }
+  if (has_drawn(mesh, tone)) { return &*picture_; }
+  shown_ = light_of(mesh, tone);
+  if (method_ == PictureMethod::gather) {
+    const radiosity::FinalGather light{file_.scene, mesh, frame};
+    picture_ = radiosity::draw(light, view_, tone, options_.solver.threads, control, memory_left(options_.memory));
+    if (!picture_ && !control.cancelled()) { method_ = PictureMethod::mesh; }
   }
+  if (method_ == PictureMethod::mesh) { picture_ = radiosity::draw(mesh, view_, tone, 4, control.cancel); }
   return picture_ ? &*picture_ : nullptr;
 }
 
@@ -169,7 +169,7 @@ std::optional<radiosity::PictureError> Artist::audit(const radiosity::Picture& p
 
 std::uint64_t Artist::worth() {
   const radiosity::PictureAudit* const its = meter();
-  if (!its || options_.method == PictureMethod::mesh) { return 0; }
+  if (!its || method_ == PictureMethod::mesh) { return 0; }
   return radiosity::picture_worth(its->ray_work(), view_.size.width, view_.size.height);
 }
 
@@ -190,17 +190,19 @@ const radiosity::Picture* drawn(Artist& artist, const radiosity::Solution& solut
   const RenderOptions& options = artist.options();
   std::vector<radiosity::StageTime> stages;
   radiosity::detail::Stopwatch watch(stages);
-  PictureMethod method = options.method;
-  const radiosity::Mesh& mesh = method == PictureMethod::mesh ? solution.shown() : solution.mesh;
+  const radiosity::Mesh& mesh = artist.method() == PictureMethod::mesh ? solution.shown() : solution.mesh;
   const bool begin = !control.cancelled() || artist.has_drawn(mesh, tone);
   const radiosity::Picture* picture = begin ? artist.draw(mesh, solution.frame, tone, control) : nullptr;
+  PictureMethod method = artist.method();
+  const char* const gathering = "the gathering of light for the picture, which shows the mesh";
   if (!picture) {
     report.audit.picture_error.reset();  // of a picture that is not shown
-    report.audit.left_out.push_back({method == PictureMethod::gather ? "the gathering of light for the picture, which shows the mesh"
-                                                                     : "12 of the 16 samples of each pixel of the picture",
-                                     "the run was interrupted", ""});
+    report.audit.left_out.push_back(
+        {method == PictureMethod::gather ? gathering : "12 of the 16 samples of each pixel of the picture", "the run was interrupted", ""});
     method = PictureMethod::mesh;
     picture = artist.draw_mesh(solution.shown(), tone);
+  } else if (method != options.method) {
+    report.audit.left_out.push_back({gathering, "it would take more than the memory allowed", ""});
   }
   report.picture = PictureReport{artist.camera(), artist.size().width, artist.size().height, method};
   watch.lap("picture");

@@ -96,6 +96,8 @@ class Artist {
   [[nodiscard]] radiosity::Viewpoint viewpoint() const {
     return {view_.eye, [view = view_](const glm::dvec3& p, const glm::dvec3& n) { return view.share(p, n); }, view_.pixel_area()};
   }
+  // As asked for, or `mesh` once a picture in gathered light has not fitted in the memory allowed.
+  [[nodiscard]] PictureMethod method() const { return method_; }
   // The effort that goes into a picture, in rays (audit_effort.hpp).
   [[nodiscard]] std::uint64_t worth();
   // Null if interrupted; valid until the next call. A picture of the same light as the last one, as after the rounds towards a target, is
@@ -128,6 +130,7 @@ class Artist {
   const SceneFile& file_;
   const radiosity::Camera& camera_;
   radiosity::View view_;
+  PictureMethod method_ = options_.method;
   std::optional<radiosity::PictureAudit> audit_;
   bool asked_ = false;
   Light shown_;

@@ -24,25 +24,32 @@ HALFLIGHT_INLINE bool one_piece(const FinalGather::Place& a, const FinalGather::
 HALFLIGHT_INLINE void add_fragments(const FinalGather& light, std::uint32_t x, std::uint32_t y,
                                     std::span<const std::optional<FinalGather::Place>> seen, const PixelSize& pixel_size,
                                     std::vector<Fragment>& out) {
+  struct Sums {  // over the rays of a fragment
+    glm::dvec3 positions{0.0}, normals{0.0};
+  };
   const auto first = static_cast<std::ptrdiff_t>(out.size());
+  std::vector<Sums> sums;
   for (const auto& place : seen) {
     if (!place) { continue; }
     const auto same =
         std::find_if(out.begin() + first, out.end(), [&](const Fragment& f) { return one_piece(f.place, *place, pixel_size); });
     if (same == out.end()) {
-      out.push_back({x, y, 1.0f, *place, place->point.position, place->point.normal});
+      out.push_back({x, y, 1.0f, *place});
+      sums.push_back({place->point.position, place->point.normal});
     } else {
+      Sums& all = sums[static_cast<std::size_t>(same - out.begin() - first)];
       same->share += 1.0f;
-      same->positions += place->point.position;
-      same->normals += place->point.normal;
+      all.positions += place->point.position;
+      all.normals += place->point.normal;
     }
   }
-  for (auto f = out.begin() + first; f != out.end(); ++f) {
-    const glm::dvec3 middle = f->positions / static_cast<double>(f->share);
+  for (std::size_t k = 0; k < sums.size(); ++k) {
+    const auto f = out.begin() + first + static_cast<std::ptrdiff_t>(k);
+    const glm::dvec3 middle = sums[k].positions / static_cast<double>(f->share);
     const bool whole = f->share == static_cast<float>(seen.size());
     f->share /= static_cast<float>(seen.size());
     if (whole && light.objects().object(f->place.object).flat()) {
-      f->place.point = {middle, glm::normalize(f->normals)};
+      f->place.point = {middle, glm::normalize(sums[k].normals)};
       continue;
     }
     // The mean of points on a curved surface lies off the surface, and that of points on both sides of a narrow thing, like the frame of a

@@ -21,8 +21,11 @@ struct Fragment {
   std::uint32_t x = 0, y = 0;
   float share = 0.0f;  // area share of the pixel
   FinalGather::Place place;
-  glm::dvec3 positions{0.0}, normals{0.0};  // sums over its rays
 };
+
+// Memory that a fragment takes until the picture is done: itself, its light and its direct light (gather_picture.cpp), and what is known
+// of the edges of shadows there (smooth_shadows.hpp).
+inline constexpr std::uint64_t bytes_of_fragment = sizeof(Fragment) + 2 * sizeof(Color) + sizeof(double) + 1;
 
 // The width of a pixel at the distance of a point.
 struct PixelSize {

@@ -21,16 +21,20 @@ namespace detail {
 
 class GatherPainter {
  public:
-  GatherPainter(const FinalGather& light, const View& view, unsigned threads, const Control& control)
+  GatherPainter(const FinalGather& light, const View& view, unsigned threads, const Control& control, std::uint64_t memory)
       : light_{light},
         view_{view},
-        blocks_{view.size, threads, control},
+        blocks_{view.size, threads, control, memory},
         seen_{light, view, blocks_},
         light_between_{light, view.size, blocks_, seen_},
         indirect_(blocks_.count()),
-        irradiance_(blocks_.count()) {}
+        irradiance_(blocks_.count()) {
+    // What every pixel takes: 37 bytes of the picture, 8 of numbers and 16 while more rays are chosen; and every block: its lists.
+    constexpr std::uint64_t a_pixel = 64, a_block = 512;
+    blocks_.take(a_pixel * view.size.width * view.size.height + a_block * blocks_.count());
+  }
 
-  // Finds what all pixels show. False when cancelled.
+  // Finds what all pixels show. False when cancelled or if it takes too much memory, as are the stages that follow.
   [[nodiscard]] bool look() { return seen_.look(); }
   [[nodiscard]] bool gather() { return light_.direct_alone() || light_between_.gather(0.3, 0.66); }
   [[nodiscard]] bool light_up(const Tone& tone, Picture& picture) {
@@ -98,9 +102,9 @@ HALFLIGHT_INLINE void GatherPainter::show(std::size_t block, const Tone& tone, P
 }  // namespace detail
 
 HALFLIGHT_INLINE std::optional<Picture> draw(const FinalGather& light, const View& view, const Tone& tone, unsigned threads,
-                                             const Control& control) {
+                                             const Control& control, std::uint64_t memory) {
+  detail::GatherPainter painter{light, view, threads, control, memory};
   Picture picture{view.size.width, view.size.height};
-  detail::GatherPainter painter{light, view, threads, control};
   if (!painter.look() || !painter.gather() || !painter.light_up(tone, picture)) { return std::nullopt; }
   return picture;
 }

@@ -10,6 +10,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 
 #include <radiosity/audit/picture_error.hpp>
@@ -21,9 +22,10 @@
 
 namespace radiosity {
 
-// The background is black. Reports the stage "picture". Nothing when control.cancel became true.
+// The background is black. Reports the stage "picture". `memory`: bytes that it may take. Nothing when control.cancel became true, or, with
+// any number of threads, if it would take more memory.
 [[nodiscard]] std::optional<Picture> draw(const FinalGather& light, const View& view, const Tone& tone, unsigned threads = 0,
-                                          const Control& control = {});
+                                          const Control& control = {}, std::uint64_t memory = std::numeric_limits<std::uint64_t>::max());
 
 // The picture as the audit needs it. `picture` must outlive the result.
 [[nodiscard]] inline ShownPicture audited(const Picture& picture, const View& view, const Tone& tone) {

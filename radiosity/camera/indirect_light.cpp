@@ -37,7 +37,7 @@ HALFLIGHT_INLINE bool IndirectLight::gather(double from, double to) {
   std::vector<std::vector<std::uint32_t>> wanted(blocks_.count());  // fragments that need a point, by block
   std::vector<std::pair<std::uint32_t, std::uint32_t>> all;
   std::vector<IndirectPoint> found;
-  std::vector<Fragment> fragments;  // in which these points lie
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> fragments;  // by point: the block and the fragment in which it lies
   double done = from;
   const double step = (to - from) / 6.0;
   if (!blocks_.each_block(from, from, [&](std::size_t b) { contacts_.find(b); })) { return false; }
@@ -70,6 +70,8 @@ HALFLIGHT_INLINE bool IndirectLight::gather(double from, double to) {
     for (std::uint32_t b = 0; b < wanted.size(); ++b) {
       for (const std::uint32_t i : wanted[b]) { all.emplace_back(b, i); }
     }
+    blocks_.take(all.size() * (2 * sizeof(all.front()) + IndirectPoints::bytes_of_point));
+    if (blocks_.too_much()) { return false; }
     found.resize(all.size());
     const GatherRays& rays = pass.stride > 1 ? gather_rays : gather_rays_between;
     const auto gather_one = [&](std::size_t k) { found[k] = point_at(seen_.of(all[k].first)[all[k].second], rays); };
@@ -77,11 +79,14 @@ HALFLIGHT_INLINE bool IndirectLight::gather(double from, double to) {
       blocks_.control().report("picture", done + 5.0 / 6.0 * step * static_cast<double>(count) / static_cast<double>(all.size()));
     };
     if (!parallel_in_batches(blocks_.control(), blocks_.threads(), all.size(), {1024, 8}, gather_one, report)) { return false; }
+    points_.reserve(found.size());
+    const std::size_t before = points_.bytes_of_tiles();
     for (const IndirectPoint& point : found) { points_.add(point); }
-    for (const auto& [block, i] : all) { fragments.push_back(seen_.of(block)[i]); }
+    blocks_.take(points_.bytes_of_tiles() - before);
+    fragments.insert(fragments.end(), all.begin(), all.end());
     done += step;
   }
-  const auto again = [&](std::size_t i) { return gathered(fragments[i], gather_rays_again); };
+  const auto again = [&](std::size_t i) { return gathered(seen_.of(fragments[i].first)[fragments[i].second], gather_rays_again); };
   if (!points_.gather_again(blocks_.threads(), blocks_.control(), again)) { return false; }
   const auto fit = [&](std::size_t i) { points_.fit(i); };
   return parallel_in_batches(blocks_.control(), blocks_.threads(), points_.size(), {points_.size(), 64}, fit);

@@ -75,8 +75,12 @@ void IndirectPoints::each_tile(const IndirectPoint& point, double pixels, const 
 HALFLIGHT_INLINE void IndirectPoints::add(const IndirectPoint& point) {
   const auto index = static_cast<std::uint32_t>(points_.size());
   points_.push_back(point);
-  each_tile(point, point.pixels, [&](std::size_t t) { tiles_[t].push_back(index); });
+  each_tile(point, point.pixels, [&](std::size_t t) {
+    tiles_[t].push_back(index);
+    ++in_lists_;
+  });
   in_tiles_[std::size_t{point.y / tile} * columns_ + point.x / tile].push_back(index);
+  ++in_lists_;
 }
 
 HALFLIGHT_INLINE bool IndirectPoints::covered(std::uint32_t x, std::uint32_t y, const glm::dvec3& position, const glm::dvec3& normal,

@@ -38,8 +38,14 @@ class IndirectPoints {
  public:
   IndirectPoints(std::uint32_t width, std::uint32_t height);
 
+  // Makes room for so many points more, and for none beyond them.
+  void reserve(std::size_t more) { points_.reserve(points_.size() + more); }
   void add(const IndirectPoint& point);
   [[nodiscard]] std::size_t size() const { return points_.size(); }
+  // What the lists of the tiles take; a growing one is at most half empty.
+  [[nodiscard]] std::size_t bytes_of_tiles() const { return 2 * sizeof(std::uint32_t) * in_lists_; }
+  // At most, with the table from which it is added, and the old place of a table that is moved because it grows.
+  static constexpr std::size_t bytes_of_point = 2 * sizeof(IndirectPoint);
 
   // Is the place within the inner part of some point's sphere, so that no further point is needed?
   [[nodiscard]] bool covered(std::uint32_t x, std::uint32_t y, const glm::dvec3& position, const glm::dvec3& normal,
@@ -68,8 +74,9 @@ class IndirectPoints {
 
   std::uint32_t columns_, rows_;
   std::vector<IndirectPoint> points_;
-  Tiles tiles_;     // by tile: points whose spheres may overlap it
-  Tiles in_tiles_;  // by tile: points that lie in it
+  Tiles tiles_;               // by tile: points whose spheres may overlap it
+  Tiles in_tiles_;            // by tile: points that lie in it
+  std::size_t in_lists_ = 0;  // the length of all lists together
 };
 
 template <class Gather>

@@ -34,7 +34,14 @@ HALFLIGHT_INLINE SeenSurfaces::SeenSurfaces(const FinalGather& light, const View
       fragments_(blocks.count()),
       surfaces_(std::size_t{view.size.width} * view.size.height, no_surface) {}
 
+HALFLIGHT_INLINE void SeenSurfaces::store(std::size_t block, const std::vector<Fragment>& fragments) {
+  std::vector<Fragment>& own = fragments_[block];
+  if (fragments.size() > own.size()) { blocks_.take((fragments.size() - own.size()) * bytes_of_fragment); }
+  own = std::vector<Fragment>(fragments.begin(), fragments.end());  // takes no more than it needs
+}
+
 HALFLIGHT_INLINE void SeenSurfaces::glance(std::size_t block) {
+  std::vector<Fragment> result;
   std::array<glm::dvec3, 16> directions{};
   std::array<std::pair<std::uint32_t, std::uint32_t>, 4> pixels{};
   unsigned waiting = 0;
@@ -48,7 +55,7 @@ HALFLIGHT_INLINE void SeenSurfaces::glance(std::size_t block) {
       for (const auto& place : own) {
         if (place.has_value() != own[0].has_value() || (place && !one_piece(*own[0], *place, pixel_size_))) { surface = several_surfaces; }
       }
-      add_fragments(light_, x, y, own, pixel_size_, fragments_[block]);
+      add_fragments(light_, x, y, own, pixel_size_, result);
     }
     waiting = 0;
   };
@@ -58,6 +65,7 @@ HALFLIGHT_INLINE void SeenSurfaces::glance(std::size_t block) {
     if (waiting == 4) { look(); }
   });
   if (waiting > 0) { look(); }
+  store(block, result);
 }
 
 HALFLIGHT_INLINE std::span<const Fragment> SeenSurfaces::at(std::uint32_t x, std::uint32_t y) const {
@@ -100,7 +108,7 @@ void SeenSurfaces::look_again(std::size_t block, const Wanted& wanted, std::span
     }
     add_fragments(light_, x, y, seen, pixel_size_, result);
   });
-  if (changed) { fragments_[block] = std::move(result); }
+  if (changed) { store(block, result); }
 }
 
 namespace detail {

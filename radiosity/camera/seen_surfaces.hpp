@@ -53,6 +53,8 @@ class SeenSurfaces {
 
  private:
   void glance(std::size_t block);
+  // Stores the fragments of a block, and counts their memory if they are more than before.
+  void store(std::size_t block, const std::vector<Fragment>& fragments);
   // Samples those pixels of a block for which `wanted(x, y)` by rays through these points instead, a multiple of 16.
   template <class Wanted>
   void look_again(std::size_t block, const Wanted& wanted, std::span<const glm::dvec2> at);

@@ -210,3 +210,27 @@ TEST_CASE("the picture does not depend on the threads, tells its progress and st
   control.cancel = &cancel;
   CHECK_FALSE(radiosity::draw(light, view, 1.0, 2, control));
 }
+
+TEST_CASE("a picture is drawn if it fits in the memory allowed, or not at all, whatever the threads") {
+  const SolvedFile solved = solve(example_text("room"), 0.1);
+  const radiosity::FinalGather light{solved.file.scene, solved.solution.mesh, solved.solution.frame};
+  const radiosity::View view = radiosity::make_view(solved.file.cameras.front(), {80, 60});
+  const radiosity::Picture whole = radiosity::draw(light, view, 1.0, 1).value();
+  const auto fits = [&](std::uint64_t memory, unsigned threads) {
+    const auto picture = radiosity::draw(light, view, 1.0, threads, {}, memory);
+    if (picture) { CHECK(picture->radiosity == whole.radiosity); }
+    return picture.has_value();
+  };
+  std::uint64_t too_little = 1'000, enough = 50'000'000;
+  REQUIRE_FALSE(fits(too_little, 2));
+  REQUIRE(fits(enough, 2));
+  while (too_little + 1 < enough) {  // to the byte
+    const std::uint64_t middle = (too_little + enough) / 2;
+    const bool fit = fits(middle, static_cast<unsigned>(middle % 3 + 1));
+    (fit ? enough : too_little) = middle;
+  }
+  for (const unsigned threads : {1u, 2u, 3u}) {
+    CHECK(fits(enough, threads));
+    CHECK_FALSE(fits(too_little, threads));
+  }
+}

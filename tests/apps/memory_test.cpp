@@ -3,7 +3,9 @@
 // Memory as the user of the program means it: sizes as they are written, the limit on the whole process, the peak of a run.
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -13,6 +15,7 @@
 #include "apps/memory.hpp"
 #include "json.hpp"
 #include "program.hpp"
+#include "seed.hpp"
 
 #include "catch.hpp"
 
@@ -101,6 +104,58 @@ TEST_CASE("render --memory with a picture: within the limit by the system's own 
   }
   CHECK(drawn > 9);    // all generous ones, and others
   CHECK(refused > 0);  // at least pictures that take more themselves
+}
+
+TEST_CASE("render --memory: pictures whose pixels show many things are within the limit by the system's own count, too") {
+  const auto seed = test::seed();
+  INFO("seed " << seed);
+  std::mt19937 random(seed);
+  const auto uniform = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
+  const program::Place place;
+  std::string scene =
+      "material grey reflectance .6\nmaterial lamp reflectance 0 emission 9\n"
+      "camera all eye 9 -19 9 target 0 0 0 fov 30\nsphere light center 3 -3 29 radius .5 material lamp\n";
+  for (int i = 0; i < 250; ++i) {  // sticks, narrower than a pixel
+    const auto corner = [](double x, double y, double z) { return std::to_string(x) + " " + std::to_string(y) + " " + std::to_string(z); };
+    const double x = uniform(-6, 2), y = uniform(-4, 4), z = uniform(-4, 4);
+    scene += "box b" + std::to_string(i) + " from " + corner(x, y, z) + " to " +
+             corner(x + uniform(2, 5), y + uniform(.01, .03), z + uniform(.01, .03)) + " material grey\n";
+  }
+  place.write("sticks.scene", scene);
+  const auto render = [&](const std::string& limit) {
+    return place.run("render sticks.scene --quiet --audit 0 --threads 1 --size 300x220 " + limit + "-o a.png --json a.json");
+  };
+  const auto peak = [&] { return json::parse(place.read("a.json"))["peak_bytes"]["process"].number(); };
+  REQUIRE(render("").code == 0);
+  const double most = peak();
+  int drawn = 0;
+  for (const double part : {0.6, 0.8, 1.0}) {
+    const double limit = std::round(part * most);
+    const program::Run run = render("--memory " + std::to_string(static_cast<long>(limit)) + " ");
+    CAPTURE(limit, run.err);
+    CHECK((run.code == 0 || run.code == 1 || run.code == 4));
+    if (run.code == 1) { continue; }
+    ++drawn;
+    CHECK(peak() <= limit);
+  }
+  CHECK(drawn > 1);
+}
+
+TEST_CASE("render --memory: a picture that cannot be gathered within the limit shows the mesh, and says so") {
+  const program::Place place;
+  REQUIRE(place.run("render '" HALFLIGHT_SCENES "/sphere.scene' --quiet --audit 0 -o a.light").code == 0);
+  const auto render = [&](const std::string& how, const std::string& name) {
+    return place.run("render --light a.light --quiet --audit 0 --size 400x300 " + how + " -o " + name);
+  };
+  REQUIRE(render("--method mesh", "mesh.png").code == 0);
+  REQUIRE(render("--method gather", "gathered.png").code == 0);
+  REQUIRE((place.read("mesh.png") != place.read("gathered.png")));  // in parentheses: a failure would print the bytes
+  CHECK(render("--memory 500M", "generous.png").code == 0);
+  CHECK((place.read("generous.png") == place.read("gathered.png")));
+  const program::Run narrow = render("--memory 20M", "narrow.png");
+  CHECK(narrow.code == 4);
+  CHECK(narrow.err.find("so it shows the mesh; allow more or make the picture smaller") != std::string::npos);
+  CHECK((place.read("narrow.png") == place.read("mesh.png")));
 }
 
 TEST_CASE("whatever the address space is limited to, a picture is drawn or refused with a sentence, and no signal ends the program") {
