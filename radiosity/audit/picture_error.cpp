@@ -39,6 +39,7 @@
 #include <radiosity/support/parallel.hpp>
 #include <radiosity/support/random.hpp>
 #include <radiosity/support/sobol.hpp>
+#include <radiosity/visibility/off_surfaces.hpp>
 #include <radiosity/visibility/prepare.hpp>
 
 namespace radiosity {
@@ -52,8 +53,9 @@ HALFLIGHT_INLINE std::optional<PictureAudit> PictureAudit::make(const Scene& sce
   return PictureAudit{own, unit, std::move(*result.prepared)};
 }
 
-HALFLIGHT_INLINE std::optional<PictureError> PictureAudit::measure(const ShownPicture& picture, const AuditGoal& goal, unsigned threads,
+HALFLIGHT_INLINE std::optional<PictureError> PictureAudit::measure(const ShownPicture& shown, const AuditGoal& goal, unsigned threads,
                                                                    std::uint64_t seed, const Control& control, std::string* reason) const {
+  const ShownPicture picture = from_off_surfaces(shown);
   std::uint64_t keys = 0, rays = 0;  // rays: including all pilots
   Measured measured;
   bool reflects = false;  // has a pixel been found that counts?
@@ -123,6 +125,16 @@ HALFLIGHT_INLINE PictureAudit::PictureAudit(const Scene& scene, const LightUnit&
   const auto inputs = surfaces(scene);
   all_emit_ =
       std::none_of(inputs.begin(), inputs.end(), [&](const InputSurface& s) { return is_black(scene.materials[s.material].emission); });
+}
+
+HALFLIGHT_INLINE ShownPicture PictureAudit::from_off_surfaces(const ShownPicture& picture) const {
+  const auto [centre, scale] = std::pair{prepared_->frame.centre, prepared_->frame.scale};
+  const glm::dvec3 eye = picture.ray(0.0, 0.0).origin, in_frame = (eye - centre) * scale;
+  const glm::dvec3 off = off_surfaces(prepared_->objects, in_frame);
+  ShownPicture result = picture;
+  if (off == in_frame) { return result; }
+  result.ray = [ray = picture.ray, from = off / scale + centre](double x, double y) { return raycast::Segment{from, ray(x, y).direction}; };
+  return result;
 }
 
 HALFLIGHT_INLINE std::optional<raycast::ScenePoint> PictureAudit::seen(const ShownPicture& picture, double x, double y,

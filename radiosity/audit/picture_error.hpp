@@ -79,6 +79,8 @@ class PictureAudit {
   PictureAudit(const Scene& scene, const LightUnit& unit, Prepared prepared);
 
   // The first surface that faces the camera; back faces are looked through, as in the pictures (lookup.hpp).
+  // The picture with rays from where a camera looks (off_surfaces.hpp).
+  [[nodiscard]] ShownPicture from_off_surfaces(const ShownPicture& picture) const;
   [[nodiscard]] std::optional<raycast::ScenePoint> seen(const ShownPicture& picture, double x, double y, std::uint64_t& rays) const;
 
   // The emitted light, when it is the same all over the pixel. Nothing when the pixel does not count because it sees nothing or shows a

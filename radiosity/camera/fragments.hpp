@@ -3,6 +3,7 @@
 
 // Groups the rays of a pixel of a gathered picture into fragments: pieces of one surface that are lit once each (gather_picture.hpp).
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -27,11 +28,12 @@ struct Fragment {
 // of the edges of shadows there (smooth_shadows.hpp).
 inline constexpr std::uint64_t bytes_of_fragment = sizeof(Fragment) + 2 * sizeof(Color) + sizeof(double) + 1;
 
-// The width of a pixel at the distance of a point.
+// The width of a pixel at the distance of a point, or at `nearest` if that is farther: between two surfaces that touch, an eye may lie on
+// both (off_surfaces.hpp), and widths must not be 0.
 struct PixelSize {
   glm::dvec3 eye{0.0};
-  double angle = 0.0;
-  [[nodiscard]] double operator()(const glm::dvec3& p) const { return angle * glm::length(p - eye); }
+  double angle = 0.0, nearest = 0.0;
+  [[nodiscard]] double operator()(const glm::dvec3& p) const { return angle * std::max(nearest, glm::length(p - eye)); }
 };
 
 // Do these two places, seen through one pixel, belong to one fragment? Not if one part of a surface hides another, or across a crease.

@@ -30,7 +30,7 @@ HALFLIGHT_INLINE SeenSurfaces::SeenSurfaces(const FinalGather& light, const View
       view_{view},
       blocks_{blocks},
       eye_{light.eye(view.eye)},
-      pixel_size_{eye_.position, 2.0 * view.half_width / view.size.width},
+      pixel_size_{eye_.position, 2.0 * view.half_width / view.size.width, 1e-12 * light.objects().diameter()},
       fragments_(blocks.count()),
       surfaces_(std::size_t{view.size.width} * view.size.height, no_surface) {}
 

@@ -39,6 +39,7 @@
 #include <radiosity/scene/scene.hpp>
 #include <radiosity/support/random.hpp>
 #include <radiosity/support/sobol.hpp>
+#include <radiosity/visibility/off_surfaces.hpp>
 
 namespace radiosity {
 
@@ -88,7 +89,7 @@ HALFLIGHT_INLINE PhotonGrid FinalGather::send_lamp_photons(const std::vector<Sur
 }
 
 HALFLIGHT_INLINE FinalGather::Eye FinalGather::eye(const glm::dvec3& in_scene) const {
-  Eye eye{(in_scene - frame().centre) * frame().scale, true};
+  Eye eye{off_surfaces(objects(), (in_scene - frame().centre) * frame().scale), true};
   for (std::uint32_t o = 0; o < objects().size() && eye.in_air; ++o) {
     const raycast::PlacedObject& object = objects().object(o);
     if (!object.solid() || (!object.inside() && !object.bounds().contains(eye.position))) { continue; }

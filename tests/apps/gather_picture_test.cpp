@@ -8,8 +8,10 @@
 #include <fstream>
 #include <iterator>
 #include <numbers>
+#include <random>
 #include <string>
 
+#include <radiosity/audit/picture_error.hpp>
 #include <radiosity/picture/final_gather.hpp>
 #include <radiosity/radiosity.hpp>
 #include <radiosity/result/outcome.hpp>
@@ -19,6 +21,7 @@
 #include <radiosity/camera/mesh_picture.hpp>
 
 #include "apps/scene_file.hpp"
+#include "seed.hpp"
 
 namespace {
 
@@ -232,5 +235,54 @@ TEST_CASE("a picture is drawn if it fits in the memory allowed, or not at all, w
   for (const unsigned threads : {1u, 2u, 3u}) {
     CHECK(fits(enough, threads));
     CHECK_FALSE(fits(too_little, threads));
+  }
+}
+
+TEST_CASE("a camera on a surface sees what it sees from just before it, with a picture and an audit") {
+  const auto seed = test::seed();
+  INFO("seed " << seed);
+  std::mt19937 random(seed);
+  const auto uniform = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
+  const SolvedFile solved = solve(
+      "material w reflectance .5\nmaterial l reflectance 0 emission 10\n"
+      "difference house material w {\n box outside from -.5 -.5 -.5 to 4.5 4.5 3.5\n box room from 0 0 0 to 4 4 3\n}\n"
+      "disk lamp center 2 2 2.9 normal 0 0 -1 radius .4 material l\n"
+      "box block from 1 1 0 to 2 2 1 material w\ncylinder post base 3 3 0 axis 0 0 1 radius .3 material w\n",
+      0.1);
+  const radiosity::FinalGather light{solved.file.scene, solved.solution.mesh, solved.solution.frame};
+  const auto meter = radiosity::PictureAudit::make(solved.file.scene);
+  REQUIRE(meter);
+  const double turn = uniform(0.0, 2.0 * pi);
+  struct On {
+    const char* what;
+    glm::dvec3 eye, normal;
+    bool edge = false;  // from there, what is seen depends on the direction from which the edge is approached
+  };
+  for (const On& on : {On{"floor", {uniform(2.2, 2.6), uniform(0.1, 2.4), 0.0}, {0, 0, 1}},
+                       On{"wall", {0.0, uniform(0.5, 3.5), uniform(0.5, 2.5)}, {1, 0, 0}},
+                       On{"edge of floor and wall", {0.0, uniform(0.5, 3.5), 0.0}, {1, 0, 1}, true},
+                       On{"corner", {4.0, 0.0, 0.0}, {-1, 1, 1}, true}, On{"block", {uniform(1.1, 1.9), uniform(1.1, 1.9), 1.0}, {0, 0, 1}},
+                       On{"edge of the block", {uniform(1.1, 1.9), 1.0, 1.0}, {0, -1, 1}, true},
+                       On{"post", {3.0 + 0.3 * std::cos(turn), 3.0 + 0.3 * std::sin(turn), 0.5}, {std::cos(turn), std::sin(turn), 0}}}) {
+    CAPTURE(on.what, on.eye);
+    const glm::dvec3 forward = 0.2 * on.normal + glm::dvec3(uniform(-1, 1), uniform(-1, 1), 0.5 * uniform(-1, 1));
+    const auto from = [&](double before) {
+      const radiosity::View view =
+          radiosity::make_view({.eye = on.eye + before * glm::normalize(on.normal), .forward = forward, .field_of_view = 100.0}, {60, 45});
+      radiosity::Picture picture = radiosity::draw(light, view, 1.0, 1).value();
+      const auto error = meter->measure(radiosity::audited(picture, view, {1.0, {}}), {200, 2'000'000}, 1, 1);
+      REQUIRE(error);
+      if (!on.edge) { CHECK(error->error.low < 0.05); }
+      CHECK(std::isfinite(error->error.relative_l2));
+      return picture;
+    };
+    const radiosity::Picture on_it = from(0.0), before_it = from(2e-5);
+    double off = 0.0, all = 0.0;
+    for (std::size_t p = 0; p < on_it.radiosity.size(); ++p) {
+      const glm::dvec3 d = on_it.radiosity[p] - before_it.radiosity[p];
+      off += glm::dot(d, d);
+      all += glm::dot(before_it.radiosity[p], before_it.radiosity[p]);
+    }
+    if (!on.edge) { CHECK(std::sqrt(off / all) < 0.1); }
   }
 }
