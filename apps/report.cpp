@@ -202,7 +202,7 @@ class Text {
       case Status::estimate_refuted:
         return "ESTIMATE REFUTED: solved as far as the links tell, but path tracing found more than three times their error";
       case Status::far_off:
-        return "FAR OFF: solved as far as the links tell, but path tracing found the result more than a quarter off";
+        return "FAR OFF: solved as far as the links tell, but path tracing found the result more than a quarter off, or most pixels wrong";
       case Status::error_unknown:
         return "ERROR UNKNOWN: by the links more than half of the light may be wrong, and path tracing cannot tell that it is not";
       case Status::not_converged:

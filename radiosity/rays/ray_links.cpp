@@ -169,10 +169,12 @@ HALFLIGHT_INLINE std::vector<std::uint32_t> ray_counts(const DiscreteScene& scen
   const double least = scene.control.viewpoint ? of_many : least_each;
   // With a camera, slivers in view may have hundreds of times the weight of others. The total is limited to the number that equal weights
   // would give; beyond `few` to the geometric mean of both, because a picture averages over what its points see, the more the more nodes.
-  constexpr double few = 0x1p22;
+  // Without one, weights are those of casters close to others, which all are where things touch everywhere: not more than four times as
+  // many as by equal weights.
+  constexpr double few = 0x1p22, times_even = 4.0;
   const double wished = mean * weighted * weighted / all, even = mean * static_cast<double>(casters.size());
-  const double most = std::max(few, std::sqrt(few * even));
-  if (scene.control.viewpoint && wished > most) { mean *= most / wished; }
+  const double most = std::max(few, scene.control.viewpoint ? std::sqrt(few * even) : times_even * even);
+  if (wished > most) { mean *= most / wished; }
   std::vector<std::uint32_t> counts(scene.hierarchy.size(), 0);
   for (const Caster& caster : casters) {
     if (!(area[caster.node] > 0.0)) { continue; }

@@ -75,11 +75,15 @@ struct Audit {
   }
 
   // Has path tracing found that a quarter of the light of the surfaces or of the picture is wrong, and more than was asked for? Then light
-  // was not found or invented, whatever the links tell.
+  // was not found or invented, whatever the links tell. Nor is a picture believed that is more than 8 of 255 levels off in most of its
+  // pixels, although the paths that meet light there are too few to tell how much that is.
   [[nodiscard]] bool far_off() const {
     constexpr double much = 0.25;
     const auto more = [&](const std::optional<ErrorEstimate>& error) { return error && error->above(std::max(much, asked)); };
-    return more(surface_error) || more(leaf_error) || (picture_error && more(picture_error->error));
+    const auto seen_off = [&](const PictureError& picture) {
+      return !picture.error.within(std::max(much, asked)) && picture.over8.least > 0.5;
+    };
+    return more(surface_error) || more(leaf_error) || (picture_error && (more(picture_error->error) || seen_off(*picture_error)));
   }
 
   // May more than half of the light of the surfaces be wrong, as far as the links and an audit tell that could not find it?

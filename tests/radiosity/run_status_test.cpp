@@ -113,6 +113,16 @@ TEST_CASE("a run has not converged if path tracing found a quarter of the light 
     CHECK((audit.status() == RunStatus::far_off) == (most > std::max(0.25, audit.asked)));
     far_off += audit.far_off() ? 1 : 0;
   }
+  radiosity::Audit dim;  // whose picture is too noisy to tell its error, but wrong all over
+  dim.picture_error.emplace();
+  dim.picture_error->error = {1.0, 2.0, 0.0, 4.0};
+  dim.picture_error->over8 = {0.7, 1.0};
+  CHECK(dim.status() == RunStatus::far_off);
+  dim.picture_error->over8 = {0.4, 1.0};
+  CHECK(dim.status() == RunStatus::converged);
+  dim.picture_error->over8 = {0.7, 1.0};
+  dim.picture_error->error = {0.1, 0.01, 0.08, 0.12};  // known to be small
+  CHECK(dim.status() == RunStatus::converged);
   radiosity::Audit dark;  // in which hardly any path meets light
   dark.estimated_error = 0.6;
   dark.surface_error = radiosity::ErrorEstimate{0.3, 0.5, 0.0, 0.8};
