@@ -39,7 +39,6 @@
 #include <radiosity/support/parallel.hpp>
 #include <radiosity/support/random.hpp>
 #include <radiosity/support/sobol.hpp>
-#include <radiosity/visibility/off_surfaces.hpp>
 #include <radiosity/visibility/prepare.hpp>
 
 namespace radiosity {
@@ -55,7 +54,7 @@ HALFLIGHT_INLINE std::optional<PictureAudit> PictureAudit::make(const Scene& sce
 
 HALFLIGHT_INLINE std::optional<PictureError> PictureAudit::measure(const ShownPicture& shown, const AuditGoal& goal, unsigned threads,
                                                                    std::uint64_t seed, const Control& control, std::string* reason) const {
-  const ShownPicture picture = from_off_surfaces(shown);
+  const ShownPicture picture = from_off_surfaces(shown, prepared_->objects, prepared_->frame);
   std::uint64_t keys = 0, rays = 0;  // rays: including all pilots
   Measured measured;
   bool reflects = false;  // has a pixel been found that counts?
@@ -127,24 +126,13 @@ HALFLIGHT_INLINE PictureAudit::PictureAudit(const Scene& scene, const LightUnit&
       std::none_of(inputs.begin(), inputs.end(), [&](const InputSurface& s) { return is_black(scene.materials[s.material].emission); });
 }
 
-HALFLIGHT_INLINE ShownPicture PictureAudit::from_off_surfaces(const ShownPicture& picture) const {
-  const auto [centre, scale] = std::pair{prepared_->frame.centre, prepared_->frame.scale};
-  const glm::dvec3 eye = picture.ray(0.0, 0.0).origin, in_frame = (eye - centre) * scale;
-  const glm::dvec3 off = off_surfaces(prepared_->objects, in_frame);
-  ShownPicture result = picture;
-  if (off == in_frame) { return result; }
-  result.ray = [ray = picture.ray, from = off / scale + centre](double x, double y) { return raycast::Segment{from, ray(x, y).direction}; };
-  return result;
-}
-
 HALFLIGHT_INLINE std::optional<raycast::ScenePoint> PictureAudit::seen(const ShownPicture& picture, double x, double y,
                                                                        std::uint64_t& rays) const {
   const raycast::Scene& objects = prepared_->objects;
   raycast::Segment ray = picture.ray(x, y);
   ray.origin = (ray.origin - prepared_->frame.centre) * prepared_->frame.scale;
   ray.direction = glm::normalize(ray.direction) * objects.diameter();
-  std::uint32_t from = raycast::no_object;
-  std::uint32_t sheet = raycast::unknown_sheet;
+  std::uint32_t from = raycast::no_object, sheet = raycast::unknown_sheet;
   constexpr int most = 10'000;  // limit: only back faces are passed, but rounding might repeat one endlessly
   for (int passed = 0; passed < most; ++passed) {
     ++rays;

@@ -10,18 +10,17 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include <raycast/object.hpp>
-#include <raycast/ray.hpp>
 
 #include <radiosity/audit/audit_effort.hpp>
 #include <radiosity/audit/path_tracer.hpp>
 #include <radiosity/audit/pixel_draw.hpp>
+#include <radiosity/audit/shown_picture.hpp>
 #include <radiosity/result/error_estimate.hpp>
 #include <radiosity/scene/light_unit.hpp>
 #include <radiosity/scene/material.hpp>
@@ -30,20 +29,6 @@
 #include <radiosity/visibility/prepare.hpp>
 
 namespace radiosity {
-
-// What the audit needs to know of a picture.
-struct ShownPicture {
-  std::uint32_t width = 0, height = 0;
-  // The ray through the point (x, y), in pixels from the top left corner; in scene coordinates, of any length.
-  std::function<raycast::Segment(double x, double y)> ray;
-  // Mean radiosity that the pixel shows, W/m2 a channel, not clamped.
-  std::function<Color(std::uint32_t x, std::uint32_t y)> radiosity;
-  // The level, 0 to 255, at which the radiosity of one channel is displayed.
-  std::function<double(double radiosity)> level;
-  // Does the pixel partly show a lamp? Then it does not count. The picture's samples may find a lamp much smaller than a pixel that the
-  // audit's samples miss, and the picture would seem too bright by the light of that lamp. May be empty.
-  std::function<bool(std::uint32_t x, std::uint32_t y)> partly_lamp = nullptr;
-};
 
 class PictureAudit {
  public:
@@ -79,8 +64,6 @@ class PictureAudit {
   PictureAudit(const Scene& scene, const LightUnit& unit, Prepared prepared);
 
   // The first surface that faces the camera; back faces are looked through, as in the pictures (lookup.hpp).
-  // The picture with rays from where a camera looks (off_surfaces.hpp).
-  [[nodiscard]] ShownPicture from_off_surfaces(const ShownPicture& picture) const;
   [[nodiscard]] std::optional<raycast::ScenePoint> seen(const ShownPicture& picture, double x, double y, std::uint64_t& rays) const;
 
   // The emitted light, when it is the same all over the pixel. Nothing when the pixel does not count because it sees nothing or shows a
