@@ -22,17 +22,15 @@ struct Scaled {
     for (std::size_t i = 0; i < x.size(); ++i) { y[i] *= scale[i]; }
     ++products;
   }
-  [[nodiscard]] bool exhausted() const { return products >= most_products; }
+  [[nodiscard]] bool exhausted() const { return products >= 400; }
 
   const SymmetricOperator* apply;
-  int most_products;
   std::vector<double> scale;
   std::vector<double> scratch{};
   int products = 0;
 };
 
-// Solves (diag(rows) + S) x = r in the free rows, until the residual is `part` of that of x = 0, or as far as a quarter of all products
-// leads.
+// Solves (diag(rows) + S) x = r in the free rows, until the residual is `part` of that of x = 0.
 [[nodiscard]] HALFLIGHT_INLINE std::vector<double> newton_step(Scaled& matrix, const std::vector<double>& rows,
                                                                const std::vector<bool>& free, std::vector<double> r, double part) {
   const std::size_t n = rows.size();
@@ -46,8 +44,7 @@ struct Scaled {
   };
   double square = square_of();
   const double wanted = part * part * square;
-  const int last = matrix.products + matrix.most_products / 4;
-  for (double along = 0.0; square > wanted && matrix.products < last && !matrix.exhausted();) {
+  for (double along = 0.0; square > wanted && !matrix.exhausted();) {
     for (std::size_t i = 0; i < n; ++i) { step[i] = free[i] ? r[i] / rows[i] + along * step[i] : 0.0; }
     matrix(step, image);
     double curvature = 0.0;
@@ -81,7 +78,7 @@ struct Scaled {
 
 HALFLIGHT_INLINE std::vector<double> balance(const SymmetricOperator& apply, const std::vector<double>& t, const Balance& goal) {
   const std::size_t n = t.size();
-  detail::Scaled matrix{&apply, goal.most_products, std::vector<double>(n, 1.0)};
+  detail::Scaled matrix{&apply, std::vector<double>(n, 1.0)};
   const std::vector<double> ones(n, 1.0);
   std::vector<double> rows;
   std::vector<double> missing(n, 0.0);
@@ -92,13 +89,12 @@ HALFLIGHT_INLINE std::vector<double> balance(const SymmetricOperator& apply, con
   std::vector<double> nearest_scale = matrix.scale;
   // Rounds in a row that came hardly nearer, as where no scale meets the goal. Those that are far away do not count: the next few lead
   // back, and often nearer than before, as in halls thousands of times as wide as high.
-  int idle = 0, gained = 0;  // gained: number of products at the last round that came nearer
-  for (bool plain = true; !matrix.exhausted() && idle < 5 && matrix.products - gained < goal.most_products / 2; plain = false) {
+  int idle = 0;
+  for (bool plain = true; !matrix.exhausted() && idle < 5; plain = false) {
     matrix(ones, rows);
     const double off = detail::distance(rows, t);
     if (plain) { start = off; }
     if (off < 10.0 * nearest) { idle = off < 0.9 * nearest ? 0 : idle + 1; }
-    if (off < 0.9 * nearest) { gained = matrix.products; }
     if (off < nearest) {
       nearest = off;
       nearest_scale = matrix.scale;

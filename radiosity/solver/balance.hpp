@@ -23,13 +23,10 @@ struct ScaleLimits {
 struct Balance {
   ScaleLimits limits{};
   double tolerance = 1e-12;  // relative error of the row sums
-  int most_products = 400;   // with S
 };
 
 // Returns the diagonal of D, with 1 in rows with t = 0 or without entries. If no D is within the limits, returns the best one found until
-// five rounds, but for those that are far away, or half of most_products have come no nearer, or with all of these, which is never worse
-// than D = 1. One step takes at most a quarter of them: where the two sides of a scene light only each other the matrix is nearly
-// singular, and conjugate gradients would spend all of them on the first step, although a rough one leads on.
+// five rounds, but for those that are far away, have come no nearer, or with 400 products with S, which is never worse than D = 1.
 [[nodiscard]] std::vector<double> balance(const SymmetricOperator& apply, const std::vector<double>& t, const Balance& goal);
 
 }  // namespace radiosity

@@ -221,20 +221,20 @@ HALFLIGHT_INLINE void Transport::scale_lamps() {
   }
 }
 
-HALFLIGHT_INLINE void Transport::scale(std::size_t number, const std::vector<double>& rows, const Balance& goal) {
+HALFLIGHT_INLINE void Transport::scale(std::size_t number, const std::vector<double>& rows, const ScaleLimits& limits) {
   std::vector<double> power(rows);
   for (std::size_t i = 0; i < power.size(); ++i) { power[i] *= area_[i]; }
   const auto apply_part = [&](const std::vector<double>& x, std::vector<double>& y) {
     y.assign(x.size(), 0.0);
     apply(number, x, y);
   };
-  parts_[number].scale = balance(apply_part, power, goal);
+  parts_[number].scale = balance(apply_part, power, {limits, 1e-6});
 }
 
 HALFLIGHT_INLINE double Transport::scale_sampled(const std::vector<double>& wanted, const ScaleLimits& limits) {
   const std::size_t part = parts_.size() - 1;
   const std::vector<double> before = row_sums(part);
-  scale(part, wanted, {limits, 1e-6, 100});  // the rows wanted are known to per cents
+  scale(part, wanted, limits);
   const std::vector<double> after = row_sums(part);
   double correction = 0.0;
   double all = 0.0;
@@ -278,7 +278,7 @@ HALFLIGHT_INLINE std::optional<double> Transport::close(double limit, double tol
   if (!(rms <= limit)) { return std::nullopt; }
   if (!lamps_.empty() && sampled_ == 0 && parts_.size() > 1) {
     scale_lamps();
-    scale(parts_.size() - 1, left_by_lamps(), {scales_of_closed, 1e-6});
+    scale(parts_.size() - 1, left_by_lamps(), scales_of_closed);
   }
   std::vector<double> power(hierarchy_->size(), 0.0);
   const std::vector<double> own = closed_.empty() ? std::vector<double>{} : row_sums();

@@ -161,7 +161,7 @@ class Transport {
   // Scales the links of this part and all later ones to these row sums times areas, as far as the limits allow.
   void scale_parts(std::size_t first, const std::vector<double>& power, const Balance& goal);
   // Scales the links of a part to these row sums, as far as the limits allow.
-  void scale(std::size_t part, const std::vector<double>& rows, const Balance& goal);
+  void scale(std::size_t part, const std::vector<double>& rows, const ScaleLimits& limits);
   // The area-weighted RMS deviation of the row sums of closed leaves from 1, without leaves that see nothing.
   [[nodiscard]] double amiss(const std::vector<double>& rows) const;
 
