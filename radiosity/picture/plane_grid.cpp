@@ -26,6 +26,7 @@ inline constexpr double most_cells = 4096.0;          // of one grid
 inline constexpr int most_grids = 8;                  // depth limit: no grid separates many triangles that share a corner
 inline constexpr std::size_t most_listed = 64;        // triangles of a cell; larger cells are not searched
 inline constexpr std::size_t most_shares = 8;         // entries per triangle in the cells of all grids, on average
+inline constexpr std::size_t always_shares = 32768;   // as many are allowed where these are at most 64 per triangle
 inline constexpr std::size_t looks_a_share = 8;       // tests of a triangle with a cell, per entry
 inline constexpr double weight_slip = 1e-9;           // a point is in a triangle if no weight is below minus this
 inline constexpr double cell_slip = 1e-5;             // relative to its width: a triangle within this distance belongs to a cell
@@ -61,7 +62,7 @@ HALFLIGHT_INLINE PlaneGrid::PlaneGrid(std::span<const Corners> triangles) {
   if (all.empty()) { return; }
   const glm::dvec2 most = glm::max(glm::abs(whole.lo), glm::abs(whole.hi));
   least_width_ = detail::least_width * std::max(most.x, most.y);
-  shares_left_ = detail::most_shares * all.size();
+  shares_left_ = std::max(detail::most_shares * all.size(), std::min(64 * all.size(), detail::always_shares));
   root_ = divide(whole, all, bounds, 0);
   weights_ = {};
 }
