@@ -100,7 +100,7 @@ ExitCode report_failure(const radiosity::Failure& failure, const std::string& sc
 }
 
 // How --memory is shared out. By measurement on the examples a picture takes up to 80 bytes a pixel on top of the peak of the run, which is
-// not given back, and one in gathered light 180, for what is seen there, and tables that grow with the solution, for which the run's own
+// not given back, and one in gathered light 190, for what is seen there, and tables that grow with the solution, for which the run's own
 // prediction of its peak, up to twice too high, leaves room. Where that does not suffice, as in pixels that show many things, the picture
 // shows the mesh (Artist::method).
 struct MemoryShares {
@@ -116,7 +116,7 @@ MemoryShares memory_shares(const RenderOptions& options, const radiosity::Camera
   constexpr std::uint64_t unread = 4'000'000;  // parts of the program itself that are loaded only when they are executed
   const radiosity::PictureSize size = options.size.value_or(camera.size.value_or(radiosity::PictureSize{}));
   const bool gathered = options.method == PictureMethod::gather;
-  const std::uint64_t tables = gathered ? 12'000'000 : 4'000'000, pixel = gathered ? 180 : 80;  // bytes
+  const std::uint64_t tables = gathered ? 12'000'000 : 4'000'000, pixel = gathered ? 200 : 80;  // bytes
   return {resident_memory().value_or(0) + unread, has_picture(options) ? tables + pixel * size.width * size.height : 0};
 }
 
