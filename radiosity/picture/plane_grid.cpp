@@ -25,8 +25,7 @@ inline constexpr std::size_t few_triangles = 4;       // cells with so few are n
 inline constexpr double most_cells = 4096.0;          // of one grid
 inline constexpr int most_grids = 8;                  // depth limit: no grid separates many triangles that share a corner
 inline constexpr std::size_t most_listed = 64;        // triangles of a cell; larger cells are not searched
-inline constexpr std::size_t most_shares = 32;        // entries per triangle in the cells of all grids, on average
-inline constexpr std::size_t always_shares = 131072;  // as many are allowed where these are at most 64 per triangle
+inline constexpr std::size_t most_shares = 64;        // entries per triangle in the cells of all grids, on average
 inline constexpr std::size_t looks_a_share = 8;       // tests of a triangle with a cell, per entry
 inline constexpr double weight_slip = 1e-9;           // a point is in a triangle if no weight is below minus this
 inline constexpr double cell_slip = 1e-5;             // relative to its width: a triangle within this distance belongs to a cell
@@ -62,9 +61,11 @@ HALFLIGHT_INLINE PlaneGrid::PlaneGrid(std::span<const Corners> triangles) {
   if (all.empty()) { return; }
   const glm::dvec2 most = glm::max(glm::abs(whole.lo), glm::abs(whole.hi));
   least_width_ = detail::least_width * std::max(most.x, most.y);
-  shares_left_ = std::max(detail::most_shares * all.size(), std::min(64 * all.size(), detail::always_shares));
+  shares_left_ = detail::most_shares * all.size();
   root_ = divide(whole, all, bounds, 0);
-  weights_ = {};
+  grids_.shrink_to_fit();
+  cells_.shrink_to_fit();
+  items_.shrink_to_fit();
 }
 
 // For a triangle whose bounds overlap the cell: they are disjoint if one of its weights is negative in the whole cell.
@@ -135,7 +136,7 @@ HALFLIGHT_INLINE PlaneGrid::Cell PlaneGrid::divide(const Box& box, const std::ve
   }
   if (triangles.size() > detail::most_listed) { return {}; }
   const auto first = static_cast<std::uint32_t>(items_.size());
-  for (const std::uint32_t t : triangles) { items_.push_back({weights_[t], t}); }
+  items_.insert(items_.end(), triangles.begin(), triangles.end());
   return {first, static_cast<std::uint32_t>(triangles.size())};
 }
 
@@ -148,8 +149,8 @@ HALFLIGHT_INLINE std::optional<PlaneGrid::Found> PlaneGrid::find(const glm::dvec
     cell = cells_[grid.first_cell + std::size_t{y} * grid.size[0] + x];
   }
   for (std::uint32_t k = cell.first; k < cell.first + cell.count; ++k) {
-    const glm::dvec3 weight = items_[k].weights.at(p);
-    if (std::min({weight.x, weight.y, weight.z}) >= -detail::weight_slip) { return Found{items_[k].triangle, weight}; }
+    const glm::dvec3 weight = weights_[items_[k]].at(p);
+    if (std::min({weight.x, weight.y, weight.z}) >= -detail::weight_slip) { return Found{items_[k], weight}; }
   }
   return std::nullopt;
 }

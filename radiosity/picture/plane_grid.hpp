@@ -44,11 +44,6 @@ class PlaneGrid {
       return {1.0 - b - c, b, c};
     }
   };
-  // An entry of a cell's list. It holds the weights itself: fetching them from an array by triangle would wait for memory once more.
-  struct Item {
-    Weights weights;
-    std::uint32_t triangle = 0;
-  };
   struct Box {
     glm::dvec2 lo{0.0}, hi{0.0};
   };
@@ -85,10 +80,10 @@ class PlaneGrid {
   std::array<int, 2> axes_{0, 1};
   double least_width_ = 0.0;
   std::size_t shares_left_ = 0;   // entries of triangles in cells that are still allowed, beyond one each
-  std::vector<Weights> weights_;  // by triangle; only while the grids are made
+  std::vector<Weights> weights_;  // by triangle
   std::vector<Grid> grids_;
   std::vector<Cell> cells_;
-  std::vector<Item> items_;
+  std::vector<std::uint32_t> items_;  // triangles, by cell
   Cell root_;
 };
 
