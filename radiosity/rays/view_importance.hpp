@@ -6,7 +6,7 @@
 // weighted by area, or by the share of the picture if that is more.
 //
 // The share of the picture of a node is the mean of two shares: what the camera sees of it, and the contribution of its light to what the
-// camera sees, because a gathered picture takes its indirect light from there.
+// camera sees, because a gathered picture takes its indirect light from there: after one reflection, or from behind corners after many.
 
 #include <vector>
 
