@@ -14,6 +14,7 @@
 #include <radiosity/intake/merge.hpp>
 #include <radiosity/intake/objects.hpp>
 #include <radiosity/intake/t_joints.hpp>
+#include <radiosity/intake/tilings.hpp>
 #include <radiosity/intake/topology.hpp>
 #include <radiosity/intake/unfold.hpp>
 #include <radiosity/intake/weld.hpp>
@@ -27,6 +28,8 @@ HALFLIGHT_INLINE Intake take_in(const PolygonView& input, std::span<const Materi
   intake::unfold_fans(mesh);
   intake::drop_degenerate(mesh);
   intake::drop_duplicates(mesh);
+  intake::match_tilings(mesh);
+  intake::drop_duplicates(mesh);  // including parts
   intake::match_diagonals(mesh);
   intake::join_backs(mesh);
   intake::close_t_joints(mesh);

@@ -41,7 +41,8 @@ HALFLIGHT_INLINE bool Shells::holds_another(const Component& shell, const Compon
   const std::span<const Component> asked = std::span<const Component>(components_).first(std::min(components_.size(), most_asked));
   return std::any_of(asked.begin(), asked.end(), [&](const Component& other) {
     const bool whole = box.contains(other.box.lo) && box.contains(other.box.hi);
-    return &other != &shell && (whole || around == nullptr) && holds(shell, other.box.centre());
+    const bool smaller = other.box.diameter() < shell.box.diameter();  // not the shade around a bulb
+    return &other != &shell && (whole || (around == nullptr && smaller)) && holds(shell, other.box.centre());
   });
 }
 

@@ -95,7 +95,7 @@ class Shells {
   // shell in it that looks the other way, or contains something, is a room. If it is filled less, a shell that looks outwards and
   // contains only shells that look inwards is a room of a model that is inside out; this is used only if no other room is known.
   void find_nested_rooms(bool room_known);
-  // As holds(), for another shell as a whole; if no shell contains both, its centre is enough.
+  // As holds(), for another shell as a whole; if no shell contains both, the centre of a smaller one is enough.
   [[nodiscard]] bool holds_another(const Component& shell, const Component* around) const;
   // Does the shell contain shells that look the other way, as furniture does in a room, and that leave half of it free, so that it is not
   // the outer side of walls?
