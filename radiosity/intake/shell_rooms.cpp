@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <glm/common.hpp>
@@ -15,6 +16,7 @@
 #include <brep/polygon.hpp>
 
 #include <raycast/box.hpp>
+#include <raycast/ray.hpp>
 
 #include <radiosity/intake/shells.hpp>
 
@@ -108,6 +110,18 @@ HALFLIGHT_INLINE Component* Shells::pierced_by(std::span<const Place> places, co
   return best;
 }
 
+HALFLIGHT_INLINE bool Shells::lies_outside(const Component& shell, const Component& lamp, std::span<const Place> places) {
+  if (!(shell.volume > 0.0) || lamp.closed) { return false; }
+  const bool on_it = std::none_of(places.begin(), places.end(), [&](const Place& place) { return holds(shell, place.behind); });
+  const auto in_it = [&](const Component& other) { return &other != &shell && &other != &lamp && holds(shell, other.box.centre()); };
+  if (!on_it || std::any_of(components_.begin(), components_.end(), in_it)) { return false; }
+  const auto lit = [&](const Place& place) {
+    const raycast::RayFrame back({place.behind, 2.0 * bounds_.diameter() * glm::normalize(place.behind - place.front)});
+    return std::any_of(mesh_.faces.begin(), mesh_.faces.end(), [&](const Face& face) { return back.winding(mesh_.outline(face)) != 0; });
+  };
+  return std::any_of(places.begin(), places.end(), lit);
+}
+
 HALFLIGHT_INLINE bool Shells::shines_inwards(const Component& lamp, const Component* around, bool around_is_room) const {
   if (lamp.role != Role::solid) { return false; }
   if (lamp.volume > 0.0) { return 2.0 * shining_share(lamp) < 1.0 && is_furnished(lamp); }
@@ -166,6 +180,11 @@ HALFLIGHT_INLINE std::vector<Component*> Shells::find_rooms() {
     }
     if (places.empty() || ++lamps > most_lamps) { continue; }
     Component* around = innermost(places, &component);
+    if (around != nullptr && !seen_from_inside(around) && lies_outside(*around, component, places)) {
+      for (Place& place : places) { std::swap(place.front, place.behind); }
+      for (Place& corner : corners) { std::swap(corner.front, corner.behind); }
+      around = innermost(places, &component);
+    }
     if (around != nullptr && around->volume > 0.0 && !is_furnished(*around)) {
       // An object through which a lamp sticks out is furniture if a furnished shell contains the whole lamp.
       Component* const whole = innermost(corners, &component);

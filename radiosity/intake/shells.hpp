@@ -109,6 +109,9 @@ class Shells {
   // The smallest shell around a shell that looks outwards and holds a lamp, as a globe or a housing does: that is the room, and the shell
   // a thing in it, if an eye is in that room; without any eye, if the shell itself shines. Null: none.
   [[nodiscard]] Component* room_of_thing(const Component& thing);
+  // Does an open lamp lie on the outside of the shell, as on a slab that is a ceiling, and look into it by mistake? The shell looks outwards
+  // and holds nothing else, and its other side would light something.
+  [[nodiscard]] bool lies_outside(const Component& shell, const Component& lamp, std::span<const Place> places);
   // Is a shell that emits inwards, at least in part, a room? One that looks outwards is a room if it emits only in part and is furnished.
   // One that looks inwards is a room if something is in it, if it is the only shell, or if the innermost shell around it looks outwards
   // and is half filled, as walls are by their rooms. Otherwise it is a lamp, such as a bulb, or another emitting object that is inside

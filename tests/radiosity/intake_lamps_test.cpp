@@ -2,6 +2,7 @@
 // The intake: lamps that lie flush in a ceiling or on a wall, and what a run says whose light is lost.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -83,6 +84,40 @@ TEST_CASE("intake: a lamp that hangs close under a ceiling shines into the room,
     CHECK(count_of(room.take_in(), ChangeKind::lamp_turned) == 0);
     CHECK(count_of(high.take_in(), ChangeKind::lamp_turned) == 0);  // it was meant to light the ceiling
     check_same_light(light_of(room, room.take_in()), light_of(up, taken));
+  }
+}
+
+TEST_CASE("intake: a lamp on a ceiling that is a slab shines into the room, whichever way up it was given", "[accuracy]") {
+  const unsigned seed = test::seed();
+  INFO("seed " << seed);
+  RandomRooms random(seed);
+  for (int round = 0; round < 8; ++round) {
+    const glm::dvec3 size{number_in(random, 2, 6), number_in(random, 2, 6), number_in(random, 2, 3)};
+    const double thick = number_in(random, 0.05, 0.3), x = 0.5 * number_in(random, 0, size.x), y = 0.5 * number_in(random, 0, size.y);
+    const double under = round % 2 == 0 ? 0.0 : number_in(random, 0.0, 4e-4), side = 0.2 * size.x;
+    std::array<Soup, 2> rooms;
+    for (const bool up : {false, true}) {
+      Soup& room = rooms[up ? 1 : 0];
+      room.names.clear();
+      const auto add_slab = [&](const char* name, const glm::dvec3& lo, const glm::dvec3& hi) {
+        room.names.emplace_back(name);
+        soup::add_box(room, lo, hi);
+      };
+      add_slab("floor", {0, 0, -thick}, {size.x, size.y, 0});
+      add_slab("ceiling", {0, 0, size.z}, {size.x, size.y, size.z + thick});
+      add_slab("west", {-thick, 0, 0}, {0, size.y, size.z});
+      add_slab("east", {size.x, 0, 0}, {size.x + thick, size.y, size.z});
+      add_slab("north", {0, size.y, 0}, {size.x, size.y + thick, size.z});
+      room.names.emplace_back("lamp");
+      const double z = size.z - (up ? under : 0.0);
+      std::vector<glm::dvec3> lamp{{x, y, z}, {x, y + side, z}, {x + side, y + side, z}, {x + side, y, z}};
+      if (up) { std::reverse(lamp.begin(), lamp.end()); }
+      room.polygon(lamp, 1);
+    }
+    const radiosity::Intake down = rooms[0].take_in(), up = rooms[1].take_in();
+    CHECK(count_of(up, ChangeKind::lamp_turned) == 1);
+    CHECK(count_of(up, ChangeKind::room) == 0);
+    check_same_light(light_of(rooms[0], down), light_of(rooms[1], up));
   }
 }
 

@@ -115,6 +115,31 @@ TEST_CASE("intake: a closed lamp shines into its room, whichever way it looked")
   }
 }
 
+TEST_CASE("intake: a bulb in a shade is a lamp, whichever way it looked, with and without a floor") {
+  const unsigned seed = test::seed();
+  INFO("seed " << seed);
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  for (int round = 0; round < 40; ++round) {
+    const double width = 0.1 + 0.2 * unit(random), height = 0.1 + 0.5 * unit(random), below = 0.3 * (unit(random) - 0.5);
+    Soup soup;
+    if (round % 2 == 0) { soup.polygon({{-2, -2, -1}, {2, -2, -1}, {2, 2, -1}, {-2, 2, -1}}); }
+    constexpr int sides = 16;
+    const auto at = [&](int k, double z) {
+      const double angle = 2.0 * std::numbers::pi * k / sides;
+      return glm::dvec3(2.0 * width * std::cos(angle), 2.0 * width * std::sin(angle), z);
+    };
+    for (int k = 0; k < sides; ++k) {
+      soup.polygon({at(k, below - height), at(k + 1, below - height), at(k + 1, below + height), at(k, below + height)});
+    }
+    soup::add_box(soup, glm::dvec3(-0.5 * width), glm::dvec3(0.5 * width), 2, round % 4 > 1, 1);
+    const radiosity::Intake intake = soup.take_in();
+    check_sound(soup, intake);
+    CHECK(measure(intake.objects).solids == 1);
+    CHECK(measure(intake.objects).volume == Approx(width * width * width).epsilon(1e-9));
+  }
+}
+
 // A statue whose eyes and teeth are open surfaces within it, and a room with a carpet and a picture; neither has a lamp.
 TEST_CASE("intake: an inverted body that holds open surfaces is a solid, walls that hold them are a room") {
   const unsigned seed = test::seed();
