@@ -168,7 +168,9 @@ bool AddedLight::light_rooms_without_sun(std::vector<std::string>& faults) {
   const std::vector<raycast::Box> closed = closed_rooms(), rooms = closed.empty() ? rooms_of_cameras() : closed;
   if (rooms.empty()) { return true; }
   const LightViews views(file_.scene);
-  const auto lit = [&](const radiosity::Camera& camera) { return views.lit_share(camera) >= LightViews::tol_dark; };
+  const auto lit = [&](const radiosity::Camera& camera) {
+    return views.lit_share(camera) >= LightViews::tol_dark || views.reflected_share(camera) >= LightViews::tol_unlit;
+  };
   const bool seen =
       file_.cameras.empty() ? lit(radiosity::automatic_camera(file_.scene)) : std::any_of(file_.cameras.begin(), file_.cameras.end(), lit);
   return seen || add_room_lamps(rooms) || closed.empty() || refused(faults);

@@ -192,10 +192,10 @@ class LampMaker {
   // in a room or above a floor.
   [[nodiscard]] bool is_sky(const radiosity::SceneObject& object) const {
     if (!radiosity::shines_all_over(file_.scene, object)) { return false; }
-    constexpr double beyond = 0.05, far = 0.25, large = 0.1;  // of the diameter of all else
+    constexpr double beyond = 0.05, far_away = 0.25, large = 0.1;  // of the diameter of all else
     const double size = lit_.diameter();
     const raycast::Box own = radiosity::placed_bounds(*object.shape, object.placement);
-    return !lit_.grown(beyond * size).contains(own) && (!lit_.meets(own, far * size) || own.diameter() >= large * size);
+    return !lit_.grown(beyond * size).contains(own) && (!lit_.meets(own, far_away * size) || own.diameter() >= large * size);
   }
 
   // A light from a direction is infinitely far away, and the sky of a file is not. Where the sky would hide a sun, it is enlarged from the

@@ -18,6 +18,7 @@
 #include <radiosity/audit/seen_light.hpp>
 #include <radiosity/scene/bounds.hpp>
 #include <radiosity/scene/material.hpp>
+#include <radiosity/support/random.hpp>
 
 namespace apps {
 namespace {
@@ -106,6 +107,24 @@ double LightViews::lit_share(const radiosity::Camera& camera) const {
   const Light direct = light(of.points, 1);
   const auto lit = std::ranges::count_if(direct.reflected, [](double light) { return light > 0.0; });
   return static_cast<double>(direct.lamps + static_cast<std::size_t>(lit)) / static_cast<double>(of.points.size());
+}
+
+double LightViews::reflected_share(const radiosity::Camera& camera) const {
+  constexpr std::uint32_t rays = 64;  // from each point
+  const std::vector<raycast::ScenePoint> from = seen(camera, fine).points;
+  std::vector<raycast::ScenePoint> met;
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    radiosity::Random random{1, i};
+    const glm::dvec3 start = from[i].position + 1e-6 * size_ * from[i].normal;
+    for (std::uint32_t k = 0; k < rays; ++k) {
+      const double u = random.uniform();
+      raycast::Segment ray{start, radiosity::cosine_direction(from[i].normal, u, random.uniform())};
+      if (const auto hit = radiosity::seen_front(objects_, ray)) { met.push_back(objects_.point(*hit, ray)); }
+    }
+  }
+  const std::vector<double> direct = light(met, 1).reflected;
+  const auto lit = std::ranges::count_if(direct, [](double light) { return light > 0.0; });
+  return from.empty() ? 0.0 : static_cast<double>(lit) / static_cast<double>(from.size() * rays);
 }
 
 double LightViews::shown(const Seen& of, double usual) const {

@@ -33,6 +33,9 @@ class LightViews {
  public:
   // If less than this share of what a camera sees is lit, that is almost nothing.
   static constexpr double tol_dark = 0.02;
+  // A room into whose windows the sun shines may show no more than its reflected light: from less than this share of what its surfaces see,
+  // as through a crack, that is almost nothing, too.
+  static constexpr double tol_unlit = 0.0005;
   // Seen from outside, a house shows its light only through some windows. If less than `little_light` of what the automatic view sees is
   // shown, a view from inside replaces it, if that shows at least `much_more` times as large a part of what it sees as any from outside;
   // else a view from another side, if it shows `much_light`. A corridor with an open end shows much light there, but in a small part of the
@@ -54,7 +57,11 @@ class LightViews {
   // rays pass through the backs of surfaces.
   [[nodiscard]] double lit_share(const radiosity::Camera& camera) const;
 
-  // The same of what the picture will show as more than black; `usual`: the light of the scene, as usual_light() tells it.
+  // Of what these surfaces see themselves, the share that a lamp shines on directly.
+  [[nodiscard]] double reflected_share(const radiosity::Camera& camera) const;
+
+  // Of what a camera sees the share that the picture will show as more than black; `usual`: the light of the scene, as usual_light() tells
+  // it.
   [[nodiscard]] double shown_share(const radiosity::Camera& camera, double usual) const;
   // The share of the pixels that show it.
   [[nodiscard]] double bright_share(const radiosity::Camera& camera, double usual) const;

@@ -4,8 +4,10 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <random>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <glm/vec3.hpp>
@@ -15,10 +17,14 @@
 #include <radiosity/scene/scene.hpp>
 
 #include "apps/export/export_mesh.hpp"
+#include "apps/intake/model.hpp"
+#include "apps/intake/to_scene.hpp"
 #include "apps/scene_file.hpp"
 #include "catch.hpp"
+#include "houses.hpp"
 #include "lit_floor.hpp"
 #include "models.hpp"
+#include "seed.hpp"
 
 using lit_floor::Dice;
 using lit_floor::Floor;
@@ -122,5 +128,46 @@ TEST_CASE("exported meshes have the sky as large as the file, whatever a sun mak
     CHECK(std::transform_reduce(
               places.begin(), places.end(), 0.0, [](double a, double b) { return std::max(a, b); }, distance) ==
           test::Approx(10.0).epsilon(1e-3));
+  }
+}
+
+// A room with a window of a random size in its south wall, and a camera below it that looks at the opposite wall.
+TEST_CASE("a room into which the sun shines gets no lamp, whether its camera sees the spot or not") {
+  const unsigned seed = test::seed();
+  INFO("seed " << seed);
+  std::mt19937 random(seed);
+  const auto number = [&](double lo, double hi) { return std::uniform_real_distribution<double>(lo, hi)(random); };
+  for (int round = 0; round < 12; ++round) {
+    const bool shut = round % 3 == 2;
+    apps::Model model;
+    model.groups = {"walls"};
+    model.materials = {{"grey", radiosity::Color(0.5)}};
+    const double thick = number(0.1, 0.3), x0 = number(0.5, 1.5), x1 = x0 + number(0.8, 2.0), z0 = number(0.6, 1.2), z1 = number(1.6, 2.4);
+    const auto add_wall = [&](const glm::dvec3& lo, const glm::dvec3& hi) { houses::add_box(model, lo, hi, false); };
+    add_wall({-thick, -thick, -thick}, {4 + thick, 5 + thick, 0});
+    add_wall({-thick, -thick, 3}, {4 + thick, 5 + thick, 3 + thick});
+    add_wall({-thick, 0, 0}, {0, 5, 3});
+    add_wall({4, 0, 0}, {4 + thick, 5, 3});
+    add_wall({-thick, 5, 0}, {4 + thick, 5 + thick, 3});
+    add_wall({-thick, -thick, 0}, {shut ? 4 + thick : x0, 0, 3});
+    if (!shut) {
+      add_wall({x1, -thick, 0}, {4 + thick, 0, 3});
+      add_wall({x0, -thick, 0}, {x1, 0, z0});
+      add_wall({x0, -thick, z1}, {x1, 0, 3});
+    }
+    apps::ModelLight sun;
+    sun.kind = apps::ModelLight::Kind::sun;
+    sun.intensity = radiosity::Color(1.0);
+    sun.direction = {number(-0.3, 0.3), 1.0, number(-1.5, -1.0)};  // onto the floor before the window
+    model.lights.push_back(sun);
+    radiosity::Camera camera;
+    camera.name = "within";
+    camera.eye = {2, 2.9, 1.6};
+    camera.forward = {0, 2, round % 2 == 0 ? 0.5 : 0.0};
+    model.cameras.push_back(camera);
+    std::vector<std::string> faults;
+    const auto file = apps::to_scene(std::move(model), apps::UpAxis::z, {}, faults);
+    REQUIRE(file);
+    CHECK(models::noted(file->notes, "hangs under its ceiling") == shut);
   }
 }
