@@ -33,6 +33,7 @@
 #include <radiosity/hierarchy/twins.hpp>
 #include <radiosity/picture/lookup.hpp>
 #include <radiosity/picture/pass_through.hpp>
+#include <radiosity/refinement/lamp_choice.hpp>
 #include <radiosity/result/mesh.hpp>
 #include <radiosity/scene/frame.hpp>
 #include <radiosity/scene/material.hpp>
@@ -57,7 +58,7 @@ HALFLIGHT_INLINE FinalGather::FinalGather(const Scene& scene, const Mesh& mesh, 
     boundaries.push_back(std::move(*made.surface));
   }
   lookup_.leave_out(copies(boundaries));
-  direct_ = DirectLight{objects(), boundaries, emission, {.bodies = true}};
+  direct_ = DirectLight{objects(), boundaries, emission_of_lamps(emission), {.bodies = true}};
   lamp_photons_ = send_lamp_photons(boundaries, emission);
   for (std::uint32_t s = 0; s < emission.size(); ++s) {
     if (!direct_.is_lamp(s) && !is_black(materials_[s].reflectance)) { emission[s] = Color{0.0}; }
@@ -68,6 +69,25 @@ HALFLIGHT_INLINE FinalGather::FinalGather(const Scene& scene, const Mesh& mesh, 
     const auto corners = std::span(mesh.corners).subspan(face.first_corner, face.corner_count);
     return std::all_of(corners.begin(), corners.end(), [&](const MeshCorner& corner) { return corner.radiosity == lamp; });
   });
+}
+
+HALFLIGHT_INLINE std::vector<Color> FinalGather::emission_of_lamps(const std::vector<Color>& emission) const {
+  const auto shining =
+      static_cast<std::size_t>(std::count_if(emission.begin(), emission.end(), [](const Color& e) { return !is_black(e); }));
+  if (shining <= LampLimits{}.most) { return emission; }
+  std::vector<double> areas(emission.size(), 0.0);
+  for (std::uint32_t s = 0; s < emission.size(); ++s) {
+    for (std::uint32_t k = 0; k < lookup_.triangle_count(s); ++k) {
+      const auto& [a, b, c] = lookup_.triangle(s, k).position;
+      areas[s] += 0.5 * glm::length(glm::cross(b - a, c - a));
+    }
+  }
+  const std::vector<bool> lamps = choose_lamps(areas, emission, objects().bounds());
+  std::vector<Color> of_lamps = emission;
+  for (std::uint32_t s = 0; s < emission.size(); ++s) {
+    if (!lamps[s]) { of_lamps[s] = Color{0.0}; }
+  }
+  return of_lamps;
 }
 
 HALFLIGHT_INLINE PhotonGrid FinalGather::send_lamp_photons(const std::vector<Surface>& boundaries, std::vector<Color> emission) const {
