@@ -133,10 +133,11 @@ HALFLIGHT_INLINE void Scene::decide(Search& search, const Entries& entries, floa
   }
   if (entries.complete) { return; }
   const Line line(ray);
-  for (std::uint32_t i = 0; i < objects_.size(); ++i) {
-    const bool room = objects_[i].inside() && !compiled_.is_face_room(i);  // rooms are processed last
-    if (compiled_.roles[i] != Role::polygon && !room && !left_out_[i] && !is_far(i)) { approach(line, search.source, i, nearest); }
-  }
+  objects_along(compiled_, ray, 0.0, nearest.limit, [&](std::uint32_t i) {
+    if (compiled_.roles[i] != Role::polygon && !left_out_[i] && !is_far(i)) { approach(line, search.source, i, nearest); }
+    return false;
+  });
+  for (const Guard& room : compiled_.face_rooms) { approach(line, search.source, room.object, nearest); }
 }
 
 HALFLIGHT_INLINE void Scene::approach_bounded(Search& search) const {
