@@ -26,14 +26,14 @@
 namespace apps {
 namespace {
 
-constexpr std::size_t most_lamps = 64;  // that are added
+constexpr std::size_t most_lamps = 64;    // that are added
+constexpr std::size_t most_cameras = 16;  // that are asked what they see
 // Closed rooms that together are smaller than this share of a model are no rooms: hollows of its parts, such as the tank of a car.
 constexpr double least_rooms = 0.5;
 
 }  // namespace
 
 void AddedLight::look_for_light() {
-  constexpr std::size_t most_cameras = 16;
   const LightViews views(file_.scene);
   std::vector<radiosity::Camera>& cameras = file_.cameras;
   std::vector<std::size_t> dark;
@@ -169,10 +169,10 @@ bool AddedLight::light_rooms_without_sun(std::vector<std::string>& faults) {
   if (rooms.empty()) { return true; }
   const LightViews views(file_.scene);
   const auto lit = [&](const radiosity::Camera& camera) {
-    return views.lit_share(camera) >= LightViews::tol_dark || views.reflected_share(camera) >= LightViews::tol_unlit;
+    return views.lit_share(camera) >= LightViews::tol_dark || views.reflected_share(camera, rooms) >= LightViews::tol_dark_reflected;
   };
-  const bool seen =
-      file_.cameras.empty() ? lit(radiosity::automatic_camera(file_.scene)) : std::any_of(file_.cameras.begin(), file_.cameras.end(), lit);
+  const std::span<const radiosity::Camera> cameras = std::span(file_.cameras).first(std::min(most_cameras, file_.cameras.size()));
+  const bool seen = cameras.empty() ? lit(radiosity::automatic_camera(file_.scene)) : std::any_of(cameras.begin(), cameras.end(), lit);
   return seen || add_room_lamps(rooms) || closed.empty() || refused(faults);
 }
 

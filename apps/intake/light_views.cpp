@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <numbers>
+#include <span>
 #include <tuple>
 #include <utility>
 
@@ -109,7 +110,7 @@ double LightViews::lit_share(const radiosity::Camera& camera) const {
   return static_cast<double>(direct.lamps + static_cast<std::size_t>(lit)) / static_cast<double>(of.points.size());
 }
 
-double LightViews::reflected_share(const radiosity::Camera& camera) const {
+double LightViews::reflected_share(const radiosity::Camera& camera, std::span<const raycast::Box> rooms) const {
   constexpr std::uint32_t rays = 64;  // from each point
   const std::vector<raycast::ScenePoint> from = seen(camera, fine).points;
   std::vector<raycast::ScenePoint> met;
@@ -119,7 +120,11 @@ double LightViews::reflected_share(const radiosity::Camera& camera) const {
     for (std::uint32_t k = 0; k < rays; ++k) {
       const double u = random.uniform();
       raycast::Segment ray{start, radiosity::cosine_direction(from[i].normal, u, random.uniform())};
-      if (const auto hit = radiosity::seen_front(objects_, ray)) { met.push_back(objects_.point(*hit, ray)); }
+      const auto hit = radiosity::seen_front(objects_, ray);
+      if (!hit) { continue; }
+      const raycast::ScenePoint at = objects_.point(*hit, ray);
+      const auto holds = [&](const raycast::Box& room) { return room.grown(1e-6 * size_).contains(at.position); };
+      if (std::any_of(rooms.begin(), rooms.end(), holds)) { met.push_back(at); }
     }
   }
   const std::vector<double> direct = light(met, 1).reflected;

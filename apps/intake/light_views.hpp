@@ -14,6 +14,7 @@
 #include <memory>
 #include <optional>
 #include <set>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -33,9 +34,9 @@ class LightViews {
  public:
   // If less than this share of what a camera sees is lit, that is almost nothing.
   static constexpr double tol_dark = 0.02;
-  // A room into whose windows the sun shines may show no more than its reflected light: from less than this share of what its surfaces see,
-  // as through a crack, that is almost nothing, too.
-  static constexpr double tol_unlit = 0.0005;
+  // A room into whose window the sun shines may show the camera nothing but reflected light. If less than this share of what its surfaces
+  // see in it is lit by a lamp, as through a crack, the room counts as dark. A window of a square metre makes some .002 of it.
+  static constexpr double tol_dark_reflected = 0.0005;
   // Seen from outside, a house shows its light only through some windows. If less than `little_light` of what the automatic view sees is
   // shown, a view from inside replaces it, if that shows at least `much_more` times as large a part of what it sees as any from outside;
   // else a view from another side, if it shows `much_light`. A corridor with an open end shows much light there, but in a small part of the
@@ -57,8 +58,8 @@ class LightViews {
   // rays pass through the backs of surfaces.
   [[nodiscard]] double lit_share(const radiosity::Camera& camera) const;
 
-  // Of what these surfaces see themselves, the share that a lamp shines on directly.
-  [[nodiscard]] double reflected_share(const radiosity::Camera& camera) const;
+  // Of what is seen from the surfaces that a camera sees, the share that lies in one of these rooms and is directly lit by a lamp.
+  [[nodiscard]] double reflected_share(const radiosity::Camera& camera, std::span<const raycast::Box> rooms) const;
 
   // Of what a camera sees the share that the picture will show as more than black; `usual`: the light of the scene, as usual_light() tells
   // it.

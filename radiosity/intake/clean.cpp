@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <iterator>
+#include <set>
 #include <span>
 #include <utility>
 #include <vector>
@@ -101,6 +102,7 @@ HALFLIGHT_INLINE void drop_duplicates(Working& mesh, const std::vector<bool>& am
   }
   std::sort(keys.begin(), keys.end());
   std::vector<bool> gone(mesh.faces.size(), false);
+  std::set<std::uint32_t> counted;  // polygons: one may have several faces
   for (std::size_t first = 0, end = 0; first < keys.size(); first = end) {
     while (end < keys.size() && keys[end].corners == keys[first].corners) { ++end; }
     Face& last = mesh.faces[keys[end - 1].face];
@@ -109,7 +111,7 @@ HALFLIGHT_INLINE void drop_duplicates(Working& mesh, const std::vector<bool>& am
       gone[keys[i].face] = true;
       last.stand_for(earlier);
       if (last.back == none) { last.back = earlier.back; }
-      mesh.changed(ChangeKind::duplicate, earlier.polygon);
+      if (counted.insert(earlier.polygon).second) { mesh.changed(ChangeKind::duplicate, earlier.polygon); }
     }
   }
   std::erase_if(mesh.faces, [&](const Face& face) { return gone[static_cast<std::size_t>(&face - mesh.faces.data())]; });

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Decides which shells are rooms, from the lamps and eyes in them.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -43,8 +44,8 @@ HALFLIGHT_INLINE bool Shells::holds_another(const Component& shell, const Compon
   const std::span<const Component> asked = std::span<const Component>(components_).first(std::min(components_.size(), most_asked));
   return std::any_of(asked.begin(), asked.end(), [&](const Component& other) {
     const bool whole = box.contains(other.box.lo) && box.contains(other.box.hi);
-    const bool smaller = other.box.diameter() < shell.box.diameter();  // not the shade around a bulb
-    return &other != &shell && (whole || (around == nullptr && smaller)) && holds(shell, other.box.centre());
+    const bool around_bulb = 2.0 * shining_share(shell) >= 1.0 && other.box.diameter() >= shell.box.diameter();  // a shade
+    return &other != &shell && (whole || (around == nullptr && !around_bulb)) && holds(shell, other.box.centre());
   });
 }
 
@@ -110,16 +111,34 @@ HALFLIGHT_INLINE Component* Shells::pierced_by(std::span<const Place> places, co
   return best;
 }
 
+HALFLIGHT_INLINE double Shells::way(const Place& place, bool ahead, std::span<const Component* const> but) {
+  const glm::dvec3 from = ahead ? place.front : place.behind;
+  const glm::dvec3 direction = glm::normalize(ahead ? place.front - place.behind : place.behind - place.front);
+  const raycast::RayFrame line({from, direction});
+  double nearest = HUGE_VAL;
+  for (const Component& component : components_) {
+    if (std::find(but.begin(), but.end(), &component) != but.end()) { continue; }
+    for (const std::uint32_t f : component.faces) {
+      const std::span<const glm::dvec3> outline = mesh_.outline(mesh_.faces[f]);
+      if (line.winding(outline) == 0) { continue; }
+      const glm::dvec3 across = brep::vector_area(outline);
+      const double at = glm::dot(outline[0] - from, across) / glm::dot(direction, across);
+      if (at > 0.0) { nearest = std::min(nearest, at); }
+    }
+  }
+  return nearest;
+}
+
 HALFLIGHT_INLINE bool Shells::lies_outside(const Component& shell, const Component& lamp, std::span<const Place> places) {
-  if (!(shell.volume > 0.0) || lamp.closed) { return false; }
+  constexpr std::size_t most_asked = 1000;
+  constexpr double thin = 0.5;  // relative to the way on the other side
+  if (!(shell.volume > 0.0) || lamp.closed || components_.size() > most_asked) { return false; }
+  const auto in_it = [&](const Component& other) { return &other != &shell && !shines(other) && holds(shell, other.box.centre()); };
   const bool on_it = std::none_of(places.begin(), places.end(), [&](const Place& place) { return holds(shell, place.behind); });
-  const auto in_it = [&](const Component& other) { return &other != &shell && &other != &lamp && holds(shell, other.box.centre()); };
   if (!on_it || std::any_of(components_.begin(), components_.end(), in_it)) { return false; }
-  const auto lit = [&](const Place& place) {
-    const raycast::RayFrame back({place.behind, 2.0 * bounds_.diameter() * glm::normalize(place.behind - place.front)});
-    return std::any_of(mesh_.faces.begin(), mesh_.faces.end(), [&](const Face& face) { return back.winding(mesh_.outline(face)) != 0; });
-  };
-  return std::any_of(places.begin(), places.end(), lit);
+  const std::array<const Component*, 2> both{&lamp, &shell};
+  const double other_way = way(places[0], false, both);
+  return other_way < HUGE_VAL && way(places[0], true, std::span(both).first(1)) < thin * other_way;
 }
 
 HALFLIGHT_INLINE bool Shells::shines_inwards(const Component& lamp, const Component* around, bool around_is_room) const {

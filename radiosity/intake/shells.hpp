@@ -95,7 +95,8 @@ class Shells {
   // shell in it that looks the other way, or contains something, is a room. If it is filled less, a shell that looks outwards and
   // contains only shells that look inwards is a room of a model that is inside out; this is used only if no other room is known.
   void find_nested_rooms(bool room_known);
-  // As holds(), for another shell as a whole; if no shell contains both, the centre of a smaller one is enough.
+  // As holds(), for another shell as a whole; if no shell contains both, its centre is enough, unless it is larger than a shell that shines
+  // all over, as the shade around a bulb is.
   [[nodiscard]] bool holds_another(const Component& shell, const Component* around) const;
   // Does the shell contain shells that look the other way, as furniture does in a room, and that leave half of it free, so that it is not
   // the outer side of walls?
@@ -109,8 +110,11 @@ class Shells {
   // The smallest shell around a shell that looks outwards and holds a lamp, as a globe or a housing does: that is the room, and the shell
   // a thing in it, if an eye is in that room; without any eye, if the shell itself shines. Null: none.
   [[nodiscard]] Component* room_of_thing(const Component& thing);
-  // Does an open lamp lie on the outside of the shell, as on a slab that is a ceiling, and look into it by mistake? The shell looks outwards
-  // and holds nothing else, and its other side would light something.
+  // The distance from a place, in front of it (`ahead`) or behind it, to the first face of a component other than these; infinite if there
+  // is none.
+  [[nodiscard]] double way(const Place& place, bool ahead, std::span<const Component* const> but);
+  // Does an open lamp lie on the outside of the shell, as on a ceiling that is a slab, although the lamp's front looks into the shell? The
+  // shell looks outwards, holds nothing but lamps, and is at most half as thick there as the way from the lamp's back to another shell.
   [[nodiscard]] bool lies_outside(const Component& shell, const Component& lamp, std::span<const Place> places);
   // Is a shell that emits inwards, at least in part, a room? One that looks outwards is a room if it emits only in part and is furnished.
   // One that looks inwards is a room if something is in it, if it is the only shell, or if the innermost shell around it looks outwards

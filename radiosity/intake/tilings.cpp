@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <map>
 #include <numeric>
+#include <optional>
 #include <set>
 #include <span>
 #include <utility>
@@ -31,14 +32,20 @@ namespace detail {
 // Finds the faces that divide a face into parts.
 class Tilings {
  public:
-  explicit Tilings(Working& mesh) : mesh_{mesh}, parts_(mesh.faces.size()) {
+  explicit Tilings(Working& mesh) : mesh_{mesh}, parts_(mesh.faces.size()), at_vertex_(mesh.positions.size() + 1, 0) {
     for (const Face& face : mesh.faces) {
       raycast::Box box;
       for (const std::uint32_t v : face.corners) { box.extend(mesh.positions[v]); }
       boxes_.push_back(box);
       areas_.push_back(brep::area(mesh.outline(face)));
+      for (const std::uint32_t v : face.corners) { ++at_vertex_[v + 1]; }
     }
-    tree_ = raycast::Bvh{boxes_};
+    std::partial_sum(at_vertex_.begin(), at_vertex_.end(), at_vertex_.begin());
+    around_.resize(at_vertex_.back());
+    std::vector<std::uint32_t> next = at_vertex_;
+    for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) {
+      for (const std::uint32_t v : mesh.faces[f].corners) { around_[next[v]++] = f; }
+    }
   }
 
   // By face: its parts; empty if it is not divided. Of parts that are divided themselves only the parts count.
@@ -47,6 +54,7 @@ class Tilings {
     std::iota(order.begin(), order.end(), 0u);
     std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return areas_[a] < areas_[b]; });
     for (const std::uint32_t f : order) {
+      if (!may_be_divided(f)) { continue; }
       std::vector<std::uint32_t> within = faces_in(f);
       if (within.size() > 1 && cover_once(within, f)) { parts_[f] = std::move(within); }
     }
@@ -54,38 +62,59 @@ class Tilings {
   }
 
  private:
-  static constexpr double area_error = 1e-6;  // by which the areas of parts add up to that of the whole, as a share of it
+  static constexpr double clearly_less = 1e-6;  // of an area, as a share of it
   static constexpr std::size_t most_parts = 1000;
+
+  // May `other` be a part of `face`? `reached`: the bounds of the latter, enlarged by the tolerance.
+  [[nodiscard]] bool may_be_part(std::uint32_t other, std::uint32_t face, const raycast::Box& reached) const {
+    return areas_[other] < (1.0 - clearly_less) * areas_[face] && reached.contains(boxes_[other].lo) &&
+           reached.contains(boxes_[other].hi) && mesh_.faces[other].shell == mesh_.faces[face].shell;
+  }
+
+  // A corner of a divided face is a corner of one of its parts, too. So most faces need no search.
+  [[nodiscard]] bool may_be_divided(std::uint32_t face) {
+    const std::uint32_t corner = mesh_.faces[face].corners[0];
+    const raycast::Box reached = boxes_[face].grown(mesh_.tolerance);
+    std::optional<raycast::Plane> plane;
+    for (std::uint32_t i = at_vertex_[corner]; i < at_vertex_[corner + 1]; ++i) {
+      if (!may_be_part(around_[i], face, reached)) { continue; }
+      if (!plane) { plane = raycast::plane_of(mesh_.outline(mesh_.faces[face])); }
+      if (in_plane(around_[i], *plane)) { return true; }
+    }
+    return false;
+  }
 
   // The smaller faces of its shell that lie in a face, up to most_parts. Of those with the same corners only one.
   [[nodiscard]] std::vector<std::uint32_t> faces_in(std::uint32_t face) {
+    if (!tree_) { tree_.emplace(boxes_); }
     const raycast::Plane plane = raycast::plane_of(mesh_.outline(mesh_.faces[face]));
     const raycast::Box reached = boxes_[face].grown(mesh_.tolerance);
     std::vector<std::uint32_t> found;
     std::set<std::vector<std::uint32_t>> known;
     const auto look = [&](std::uint32_t other) {
-      const bool smaller = areas_[other] < (1.0 - area_error) * areas_[face] && reached.contains(boxes_[other].lo) &&
-                           reached.contains(boxes_[other].hi) && mesh_.faces[other].shell == mesh_.faces[face].shell;
-      if (!smaller || !parts_[other].empty() || !lies_in(other, face, plane)) { return false; }
+      if (!may_be_part(other, face, reached) || !parts_[other].empty() || !lies_in(other, face, plane)) { return false; }
       std::vector<std::uint32_t> corners = mesh_.faces[other].corners;
       std::sort(corners.begin(), corners.end());
       if (known.insert(std::move(corners)).second) { found.push_back(other); }
       return found.size() > most_parts;
     };
     const bool too_many = raycast::any_within(
-        tree_, [&](const raycast::Box& box) { return box.meets(reached); }, look);
+        *tree_, [&](const raycast::Box& box) { return box.meets(reached); }, look);
     if (too_many) { found.clear(); }
     std::sort(found.begin(), found.end());
     return found;
   }
 
+  [[nodiscard]] bool in_plane(std::uint32_t face, const raycast::Plane& plane) const {
+    const std::vector<std::uint32_t>& corners = mesh_.faces[face].corners;
+    return std::all_of(corners.begin(), corners.end(), [&](std::uint32_t v) {
+      return std::abs(glm::dot(mesh_.positions[v] - plane.point, plane.normal)) <= mesh_.tolerance;
+    });
+  }
+
   // Does a face lie in the plane of a larger one, and a point inside it within that one's outline?
   [[nodiscard]] bool lies_in(std::uint32_t face, std::uint32_t larger, const raycast::Plane& plane) {
-    const std::vector<std::uint32_t>& corners = mesh_.faces[face].corners;
-    const auto in_plane = [&](std::uint32_t v) {
-      return std::abs(glm::dot(mesh_.positions[v] - plane.point, plane.normal)) <= mesh_.tolerance;
-    };
-    if (!std::all_of(corners.begin(), corners.end(), in_plane)) { return false; }
+    if (!in_plane(face, plane)) { return false; }
     const std::span<const glm::dvec3> outline = mesh_.outline(mesh_.faces[face]);
     glm::dvec3 middle{0.0};  // of the largest triangle
     double most = 0.0;
@@ -100,28 +129,42 @@ class Tilings {
     return most > 0.0 && across.winding(mesh_.outline(mesh_.faces[larger])) != 0;
   }
 
-  // The faces cover what has the border of `whole` an odd number of times if each of its edges has an odd number of them, and any other edge
-  // an even one; and once, if their areas add up to its area.
+  using Edge = std::pair<std::uint32_t, std::uint32_t>;
+
+  void add_edges(std::uint32_t face, std::map<Edge, bool>& odd, double& length) const {
+    const std::vector<std::uint32_t>& corners = mesh_.faces[face].corners;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      const std::uint32_t from = corners[i], to = corners[i + 1 < corners.size() ? i + 1 : 0];
+      bool& is = odd[std::minmax(from, to)];
+      is = !is;
+      length += glm::length(mesh_.positions[to] - mesh_.positions[from]);
+    }
+  }
+
+  // If all edges of these faces and of `whole`, cut where others end on them, exist an even number of times, the faces cover each point of
+  // `whole` an odd number of times. If their areas add up to its area, that number is one. A vertex may lie beside an edge by the tolerance,
+  // which changes the area by at most that times the length of the edge.
   [[nodiscard]] bool cover_once(std::span<const std::uint32_t> within, std::uint32_t whole) const {
-    double sum = 0.0;
-    for (const std::uint32_t part : within) { sum += areas_[part]; }
-    if (!(std::abs(sum - areas_[whole]) <= area_error * areas_[whole])) { return false; }
-    std::set<std::uint32_t> vertices(mesh_.faces[whole].corners.begin(), mesh_.faces[whole].corners.end());
-    for (const std::uint32_t part : within) { vertices.insert(mesh_.faces[part].corners.begin(), mesh_.faces[part].corners.end()); }
-    std::map<std::pair<std::uint32_t, std::uint32_t>, bool> odd;
-    const auto count_edges = [&](std::uint32_t face) {
-      const std::vector<std::uint32_t>& corners = mesh_.faces[face].corners;
-      for (std::size_t i = 0; i < corners.size(); ++i) {
-        const std::vector<std::uint32_t> along = vertices_along(corners[i], corners[i + 1 < corners.size() ? i + 1 : 0], vertices);
-        for (std::size_t k = 1; k < along.size(); ++k) {
-          bool& is = odd[std::minmax(along[k - 1], along[k])];
-          is = !is;
-        }
+    double sum = 0.0, length = 0.0;
+    std::map<Edge, bool> odd;
+    for (const std::uint32_t part : within) {
+      sum += areas_[part];
+      add_edges(part, odd, length);
+    }
+    add_edges(whole, odd, length);
+    if (!(std::abs(sum - areas_[whole]) <= mesh_.tolerance * length)) { return false; }
+    std::erase_if(odd, [](const auto& of) { return !of.second; });
+    std::set<std::uint32_t> vertices;
+    for (const auto& [edge, is] : odd) { vertices.insert({edge.first, edge.second}); }
+    std::map<Edge, bool> cut;
+    for (const auto& [edge, is] : odd) {
+      const std::vector<std::uint32_t> along = vertices_along(edge.first, edge.second, vertices);
+      for (std::size_t k = 1; k < along.size(); ++k) {
+        bool& is_odd = cut[std::minmax(along[k - 1], along[k])];
+        is_odd = !is_odd;
       }
-    };
-    for (const std::uint32_t part : within) { count_edges(part); }
-    count_edges(whole);
-    return std::none_of(odd.begin(), odd.end(), [](const auto& of) { return of.second; });
+    }
+    return std::none_of(cut.begin(), cut.end(), [](const auto& of) { return of.second; });
   }
 
   // Those of the vertices that lie on an edge, in order, with its ends: T-joints, too.
@@ -142,16 +185,18 @@ class Tilings {
   }
 
   Working& mesh_;
-  std::vector<std::vector<std::uint32_t>> parts_;  // by face, as are
-  std::vector<raycast::Box> boxes_;
-  std::vector<double> areas_;
-  raycast::Bvh tree_;
+  std::vector<std::vector<std::uint32_t>> parts_;  // by face
+  std::vector<raycast::Box> boxes_;                // by face
+  std::vector<double> areas_;                      // by face
+  std::vector<std::uint32_t> at_vertex_, around_;  // the faces around vertex v: around_[at_vertex_[v]] and on, up to at_vertex_[v + 1]
+  std::optional<raycast::Bvh> tree_;               // over the boxes; made when it is needed
 };
 
 }  // namespace detail
 
 HALFLIGHT_INLINE void match_tilings(Working& mesh) {
   const std::vector<std::vector<std::uint32_t>> parts = detail::Tilings(mesh).run();
+  if (std::all_of(parts.begin(), parts.end(), [](const auto& its) { return its.empty(); })) { return; }
   std::vector<Face> faces;
   for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) {
     if (parts[f].empty()) {

@@ -15,7 +15,7 @@
 namespace radiosity::intake {
 
 // Cuts each face into the parts that other faces of its shell divide it into, up to a thousand, if these cover it exactly once. It keeps
-// its orientation and material.
+// its orientation and material. So of different materials that of the later polygon is seen, whole or in parts (drop_duplicates).
 void match_tilings(Working& mesh);
 
 }  // namespace radiosity::intake

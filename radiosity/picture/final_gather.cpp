@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <optional>
 #include <span>
 #include <utility>
@@ -43,6 +44,15 @@
 #include <radiosity/visibility/off_surfaces.hpp>
 
 namespace radiosity {
+
+namespace detail {
+
+// Where many surfaces shine, a body that is little brighter than the mean is no lamp if its share of all areas is large, so that rays meet
+// it, or if it has so many faces that summing them up for each pixel takes too long.
+inline constexpr double large_body = 0.01;
+inline constexpr std::uint32_t most_faces = 4096;
+
+}  // namespace detail
 
 HALFLIGHT_INLINE FinalGather::FinalGather(const Scene& scene, const Mesh& mesh, const Frame& frame)
     : lookup_{scene, mesh, frame}, near_{lookup_, direct_, materials_, lamp_photons_} {
@@ -82,10 +92,20 @@ HALFLIGHT_INLINE std::vector<Color> FinalGather::emission_of_lamps(const std::ve
       areas[s] += 0.5 * glm::length(glm::cross(b - a, c - a));
     }
   }
-  const std::vector<bool> lamps = choose_lamps(areas, emission, objects().bounds());
+  const std::vector<bool> bright = choose_lamps(areas, emission, objects().bounds());
+  const double whole = std::accumulate(areas.begin(), areas.end(), 0.0);
   std::vector<Color> of_lamps = emission;
-  for (std::uint32_t s = 0; s < emission.size(); ++s) {
-    if (!lamps[s]) { of_lamps[s] = Color{0.0}; }
+  for (std::uint32_t o = 0; o < objects().size(); ++o) {
+    const std::uint32_t first = lookup_.surface(o, 0), last = first + objects().object(o).sheet_count();
+    const auto is_dim = [&](std::uint32_t s) { return !is_black(emission[s]) && !bright[s]; };
+    double area = 0.0;
+    std::uint32_t count = 0;
+    for (std::uint32_t s = first; s < last; ++s) {
+      area += is_dim(s) ? areas[s] : 0.0;
+      count += is_dim(s) ? 1 : 0;
+    }
+    if (!(area > detail::large_body * whole) && count <= detail::most_faces) { continue; }
+    for (std::uint32_t s = first; s < last; ++s) { of_lamps[s] = is_dim(s) ? Color{0.0} : of_lamps[s]; }
   }
   return of_lamps;
 }

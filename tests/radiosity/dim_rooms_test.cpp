@@ -256,7 +256,7 @@ TEST_CASE("a dark room into which a sun shines through a hole of centimetres get
   CHECK(off.back() < 0.7);
 }
 
-// Within some 5 %. While the brightness of what the camera sees was computed from eight reflections, and importance followed one, cells
+// Within some 5 %, measured, for which twice as much and the noise of the paths are allowed. While the brightness of what the camera sees was computed from eight reflections, and importance followed one, cells
 // had casters as large as their floors, and the last got up to 2.6 times its light.
 TEST_CASE("the last cell of a white labyrinth gets the light that goes around all of its corners", "[accuracy]") {
   const auto seed = test::seed();

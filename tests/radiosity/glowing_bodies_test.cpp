@@ -62,4 +62,16 @@ TEST_CASE("what shines like all else is no lamp of a picture, and the light gath
   const radiosity::Scene with_lamp = glowing_room(random, reflectance, 50.0);
   const radiosity::Solution lit = scenes::solved(with_lamp, {.epsilon = 0.05, .min_area = 1e-3, .audit_points = 0});
   CHECK(radiosity::FinalGather{with_lamp, lit.mesh, lit.frame}.direct().lamps().size() == 1);
+  // A small bulb of many faces is a lamp, though it is little brighter than the mean: rays hardly meet it.
+  soup::Soup bulb;
+  soup::add_torus(bulb, 12, 6, 0.02, 0.01);
+  std::vector<std::vector<std::uint32_t>> faces;
+  for (std::size_t f = 0; f < bulb.count(); ++f) {
+    faces.emplace_back(bulb.corners.begin() + bulb.first[f], bulb.corners.begin() + bulb.first[f + 1]);
+  }
+  for (glm::dvec3& p : bulb.positions) { p += glm::dvec3(1.0, 1.0, 2.0); }
+  radiosity::Scene with_bulb = scene;
+  with_bulb.objects.push_back(scenes::object("bulb", raycast::Mesh::make(bulb.positions, faces).object));
+  const radiosity::Solution by_bulb = scenes::solved(with_bulb, {.epsilon = 0.05, .min_area = 1e-3, .audit_points = 0});
+  CHECK_FALSE(radiosity::FinalGather{with_bulb, by_bulb.mesh, by_bulb.frame}.direct().lamps().empty());
 }

@@ -121,6 +121,28 @@ TEST_CASE("intake: a lamp on a ceiling that is a slab shines into the room, whic
   }
 }
 
+TEST_CASE("intake: an empty closed room in whose ceiling a lamp lies is a room, alone, beside others and under others") {
+  const unsigned seed = test::seed();
+  INFO("seed " << seed);
+  RandomRooms random(seed);
+  for (int round = 0; round < 12; ++round) {
+    const glm::dvec3 size{number_in(random, 2, 6), number_in(random, 2, 6), number_in(random, 2, 3)};
+    const double under = round % 2 == 0 ? 0.0 : number_in(random, 0.0, 4e-4), gap = number_in(random, 0.0, 0.3);
+    const int rooms = 1 + round % 3;
+    Soup soup;
+    soup.names.clear();
+    for (int k = 0; k < rooms; ++k) {
+      const glm::dvec3 lo = static_cast<double>(k) * (round < 6 ? glm::dvec3(0, 0, size.z + gap) : glm::dvec3(size.x + gap, 0, 0));
+      soup.names.push_back("room" + std::to_string(k));
+      soup::add_box(soup, lo, lo + size);
+      soup.names.push_back("lamp" + std::to_string(k));
+      const double x = lo.x + 0.4 * size.x, y = lo.y + 0.4 * size.y, z = lo.z + size.z - under, side = 0.2 * size.x;
+      soup.polygon({{x, y, z}, {x, y + side, z}, {x + side, y + side, z}, {x + side, y, z}}, 1);
+    }
+    CHECK(count_of(soup.take_in(), ChangeKind::room) == static_cast<std::size_t>(rooms));
+  }
+}
+
 TEST_CASE("intake: a lamp close above a table is not turned away from it where there is nothing else to light") {
   for (const bool in_room : {false, true}) {
     Soup soup;

@@ -7,6 +7,8 @@
 #include <random>
 #include <vector>
 
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
 #include <radiosity/intake/intake.hpp>
@@ -61,10 +63,12 @@ TEST_CASE("intake: a box is the same solid if its sides are given whole, in part
   RandomRooms random(seed);
   for (int round = 0; round < 200; ++round) {
     CAPTURE(round);
+    const bool thin = round % 4 == 1, rounded = round % 2 == 1;
     const auto vector = [&] { return glm::dvec3(number_in(random, -1, 1), number_in(random, -1, 1), number_in(random, -1, 1)); };
-    std::array<glm::dvec3, 3> edges{glm::dvec3(number_in(random, 1, 3), 0, 0), glm::dvec3(0, number_in(random, 1, 3), 0),
+    std::array<glm::dvec3, 3> edges{glm::dvec3(number_in(random, 1, 3), 0, 0),
+                                    glm::dvec3(0, number_in(random, thin ? 0.03 : 1, thin ? 0.1 : 3), 0),
                                     glm::dvec3(0, 0, number_in(random, 1, 3))};
-    for (glm::dvec3& edge : edges) { edge += 0.3 * vector(); }
+    for (glm::dvec3& edge : edges) { edge += 0.3 * glm::length(edge) * vector(); }
     const auto sides = sides_of_box(10.0 * vector(), edges);
     Soup clean;
     for (const Outline& side : sides) { clean.polygon(side); }
@@ -85,6 +89,9 @@ TEST_CASE("intake: a box is the same solid if its sides are given whole, in part
     std::shuffle(polygons.begin(), polygons.end(), random);
     for (Outline& polygon : polygons) {
       if (inwards != (disorder && random() % 4 == 0)) { std::reverse(polygon.begin(), polygon.end()); }
+      if (rounded) {  // to six digits behind the point, as in a file
+        for (glm::dvec3& p : polygon) { p = glm::round(1e6 * p) / 1e6; }
+      }
       given.polygon(polygon);
     }
     const radiosity::Intake taken = given.take_in();
@@ -93,8 +100,8 @@ TEST_CASE("intake: a box is the same solid if its sides are given whole, in part
     const soup::Measure expected = soup::measure(clean.take_in().objects), measured = soup::measure(taken.objects);
     CHECK(taken.objects.size() == 1);
     CHECK(measured.solids == 1);
-    CHECK(measured.area == Approx(expected.area).epsilon(1e-4));
-    CHECK(measured.volume == Approx(expected.volume).epsilon(1e-4));
+    CHECK(measured.area == Approx(expected.area).epsilon(thin ? 2e-3 : 1e-4));
+    CHECK(measured.volume == Approx(expected.volume).epsilon(thin ? 2e-3 : 1e-4));
     CHECK(soup::count_of(taken, ChangeKind::nonmanifold) == 0);
     CHECK(taken.parts.first.back() >= given.count());  // every polygon is somewhere in the result
   }
