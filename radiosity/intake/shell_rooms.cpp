@@ -42,10 +42,11 @@ HALFLIGHT_INLINE bool Shells::holds_another(const Component& shell, const Compon
   constexpr std::size_t most_asked = 1000;
   const raycast::Box box = shell.box.grown(mesh_.tolerance);
   const std::span<const Component> asked = std::span<const Component>(components_).first(std::min(components_.size(), most_asked));
+  const bool bulb = 2.0 * shining_share(shell) >= 1.0;
   return std::any_of(asked.begin(), asked.end(), [&](const Component& other) {
     const bool whole = box.contains(other.box.lo) && box.contains(other.box.hi);
-    const bool around_bulb = 2.0 * shining_share(shell) >= 1.0 && other.box.diameter() >= shell.box.diameter();  // a shade
-    return &other != &shell && (whole || (around == nullptr && !around_bulb)) && holds(shell, other.box.centre());
+    const bool shade = bulb && other.box.diameter() >= shell.box.diameter();
+    return &other != &shell && (whole || (around == nullptr && !shade)) && holds(shell, other.box.centre());
   });
 }
 

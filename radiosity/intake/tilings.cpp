@@ -142,8 +142,8 @@ class Tilings {
   }
 
   // If all edges of these faces and of `whole`, cut where others end on them, exist an even number of times, the faces cover each point of
-  // `whole` an odd number of times. If their areas add up to its area, that number is one. A vertex may lie beside an edge by the tolerance,
-  // which changes the area by at most that times the length of the edge.
+  // `whole` an odd number of times. If their areas add up to its area, that number is one. A vertex may lie beside an edge by the
+  // tolerance, which changes the area by at most that times the length of the edge.
   [[nodiscard]] bool cover_once(std::span<const std::uint32_t> within, std::uint32_t whole) const {
     double sum = 0.0, length = 0.0;
     std::map<Edge, bool> odd;

@@ -83,8 +83,8 @@ class ViewedCasters {
   // Under a roof of six metres on a plain of four kilometres weights reach 1e6. A keyhole needs no lower limit, because it takes little
   // of the picture.
   static constexpr double most_weight = 1e8;
-  // Share of the squared error of a caster that is the same all over its input face. With 1 instead of this value, labyrinths take twice the time,
-  // and their last cells get the same light within some 4 %.
+  // Share of the squared error of a caster that is the same all over its input face. With 1 instead of this value, labyrinths take twice
+  // the time, and their last cells get the same light within some 4 %.
   static constexpr double errors_alike = 0.1;
   static constexpr int least_reflections = 8, most_reflections = 512;
   static constexpr double little_added = 0.02, least_added = 1e-6;  // by one reflection: to the picture; to all while the picture is dark
@@ -96,8 +96,8 @@ class ViewedCasters {
   }
 
   // The light that is reflected more than once, by Jacobi iterations over the views, until one reflection more adds little to what the
-  // camera sees: behind corners of white walls that takes hundreds. For weights that is good enough, though at a reflectance of
-  // .97 a third may be missing. `seen`: share of the picture by unit of area.
+  // camera sees: behind corners of white walls that takes hundreds. For weights that is good enough, though at a reflectance of .97 a third
+  // of it may be missing. `seen`: share of the picture by unit of area.
   void reflect(const std::vector<double>& seen) {
     indirect_.assign(views_.size(), 0.0);
     std::vector<double> next(views_.size(), 0.0);

@@ -24,7 +24,7 @@
 
 namespace {
 
-// A closed room and a ring of triangles in it, all of which shine alike; with a lamp that is `brightness` times as bright, if that is not 0.
+// A closed room and a ring of triangles in it, all of which shine alike; with a lamp `brightness` times as bright, if that is not 0.
 radiosity::Scene glowing_room(radiosity::Random& random, double reflectance, double brightness) {
   soup::Soup ring;
   soup::add_torus(ring, 24, 14);

@@ -27,7 +27,8 @@ namespace {
 
 using Outline = std::vector<glm::dvec3>;
 
-// A quadrilateral in 2, 3 or more parts: cut across in the middle or at a random place, each part again with a chance, or along its diagonal.
+// A quadrilateral in 2, 3 or more parts: cut across in the middle or at a random place, each part again with a chance, or along its
+// diagonal.
 std::vector<Outline> in_parts(const Outline& quad, RandomRooms& random, int depth) {
   const double at = random() % 2 == 0 ? 0.5 : number_in(random, 0.2, 0.8);
   const auto along = [&](std::size_t i) { return quad[i] + at * (quad[(i + 1) % 4] - quad[i]); };
