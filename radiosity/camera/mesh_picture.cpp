@@ -304,7 +304,7 @@ HALFLIGHT_INLINE double automatic_exposure(const Mesh& mesh, const Scene& scene,
   const raster::Drawing drawing = raster::project(mesh, small, 1);
   raster::Band band(small.size.width, 0, small.size.height, small);
   for (const raster::Piece& piece : drawing.pieces) { band.draw(drawing, piece); }
-  std::vector<double> reflected;
+  std::vector<double> reflected, glowing;
   double emitted = 0.0;
   for (std::int64_t y = 0; y < small.size.height; ++y) {
     for (std::int64_t x = 0; x < small.size.width; ++x) {
@@ -317,9 +317,10 @@ HALFLIGHT_INLINE double automatic_exposure(const Mesh& mesh, const Scene& scene,
       const Color radiosity = raster::color_at(triangle, band.ray(x, y));
       const double value = luminance(radiosity - material.emission);
       // The light that a lamp reflects does not tell how bright the scene is. But what glows less than it is lit is no lamp.
-      if (value > luminance(material.emission)) { reflected.push_back(luminance(radiosity)); }
+      (value > luminance(material.emission) ? reflected : glowing).push_back(luminance(radiosity));
     }
   }
+  if (glowing.size() > reflected.size() && !reflected.empty()) { reflected.insert(reflected.end(), glowing.begin(), glowing.end()); }
   if (reflected.empty()) { return emitted > 0.0 ? std::numbers::pi / emitted : 1.0; }
   const auto place = reflected.begin() + static_cast<std::ptrdiff_t>(0.98 * static_cast<double>(reflected.size() - 1));
   std::nth_element(reflected.begin(), place, reflected.end());

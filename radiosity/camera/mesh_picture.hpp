@@ -29,8 +29,8 @@ namespace radiosity {
                                           const std::atomic<bool>* cancel = nullptr);
 
 // The exposure that maps the 98th percentile of the visible luminance to 0.8 in linear light: lit walls are bright, and there is room
-// above for places close to a lamp. What emits more than it reflects does not count. If nothing visible reflects more, the brightest
-// visible emission is mapped to 1; if nothing visible emits either, the result is 1. The light is that of the mesh, so that all methods
+// above for places close to a lamp. What emits more than it reflects does not count, unless it is paint that glows and fills more of the
+// picture than all other paint. If nothing visible reflects more than it emits, the brightest visible emission is mapped to 1; if nothing visible emits either, the result is 1. The light is that of the mesh, so that all methods
 // use the same exposure.
 [[nodiscard]] double automatic_exposure(const Mesh& mesh, const Scene& scene, const View& view);
 

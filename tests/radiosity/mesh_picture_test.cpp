@@ -248,6 +248,18 @@ TEST_CASE("automatic exposure takes what glows less than it is lit as a surface,
   CHECK(exposure(30.0) == test::Approx(by_wall / 31.0));
 }
 
+TEST_CASE("automatic exposure shows paint that glows and fills most of the picture, however dark the rest") {
+  const radiosity::Scene scene = wall_and_lamp();
+  const Color emission = scene.materials[1].emission;
+  for (const double edge : {-0.8, -0.2, 0.2, 0.8}) {  // between the glow on the left and a dark wall on the right
+    radiosity::Mesh mesh;
+    add_rectangle(mesh, {-1.0, -1.0}, {edge, 1.0}, 1.2 * emission, 1);
+    add_rectangle(mesh, {edge, -1.0}, {1.0, 1.0}, 0.1 * emission, 0);
+    const double by_glow = 0.8 * pi / radiosity::luminance(1.2 * emission), by_wall = 12.0 * by_glow;
+    CHECK(radiosity::automatic_exposure(mesh, scene, view(100)) == test::Approx(edge > 0.0 ? by_glow : by_wall));
+  }
+}
+
 TEST_CASE("tones rise with light, from 0 to 1, filmic below linear where it is bright") {
   for (const radiosity::ToneCurve curve : {radiosity::ToneCurve::linear, radiosity::ToneCurve::filmic}) {
     const radiosity::Tone tone{2.0, curve};
