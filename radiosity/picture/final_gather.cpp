@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <numeric>
 #include <optional>
 #include <span>
 #include <utility>
@@ -32,9 +31,9 @@
 #include <radiosity/geometry/photon_grid.hpp>
 #include <radiosity/hierarchy/surface.hpp>
 #include <radiosity/hierarchy/twins.hpp>
+#include <radiosity/picture/lamps_of_picture.hpp>
 #include <radiosity/picture/lookup.hpp>
 #include <radiosity/picture/pass_through.hpp>
-#include <radiosity/refinement/lamp_choice.hpp>
 #include <radiosity/result/mesh.hpp>
 #include <radiosity/scene/frame.hpp>
 #include <radiosity/scene/material.hpp>
@@ -44,15 +43,6 @@
 #include <radiosity/visibility/off_surfaces.hpp>
 
 namespace radiosity {
-
-namespace detail {
-
-// Where many surfaces shine, a body that is little brighter than the mean is no lamp if its share of all areas is large, so that rays meet
-// it, or if it has so many faces that summing them up for each pixel takes too long.
-inline constexpr double large_body = 0.01;
-inline constexpr std::uint32_t most_faces = 4096;
-
-}  // namespace detail
 
 HALFLIGHT_INLINE FinalGather::FinalGather(const Scene& scene, const Mesh& mesh, const Frame& frame)
     : lookup_{scene, mesh, frame}, near_{lookup_, direct_, materials_, lamp_photons_} {
@@ -68,7 +58,7 @@ HALFLIGHT_INLINE FinalGather::FinalGather(const Scene& scene, const Mesh& mesh, 
     boundaries.push_back(std::move(*made.surface));
   }
   lookup_.leave_out(copies(boundaries));
-  direct_ = DirectLight{objects(), boundaries, emission_of_lamps(emission), {.bodies = true}};
+  direct_ = DirectLight{objects(), boundaries, emission_of_lamps(lookup_, emission), {.bodies = true}};
   lamp_photons_ = send_lamp_photons(boundaries, emission);
   for (std::uint32_t s = 0; s < emission.size(); ++s) {
     if (!direct_.is_lamp(s) && !is_black(materials_[s].reflectance)) { emission[s] = Color{0.0}; }
@@ -79,35 +69,6 @@ HALFLIGHT_INLINE FinalGather::FinalGather(const Scene& scene, const Mesh& mesh, 
     const auto corners = std::span(mesh.corners).subspan(face.first_corner, face.corner_count);
     return std::all_of(corners.begin(), corners.end(), [&](const MeshCorner& corner) { return corner.radiosity == lamp; });
   });
-}
-
-HALFLIGHT_INLINE std::vector<Color> FinalGather::emission_of_lamps(const std::vector<Color>& emission) const {
-  const auto shining =
-      static_cast<std::size_t>(std::count_if(emission.begin(), emission.end(), [](const Color& e) { return !is_black(e); }));
-  if (shining <= LampLimits{}.most) { return emission; }
-  std::vector<double> areas(emission.size(), 0.0);
-  for (std::uint32_t s = 0; s < emission.size(); ++s) {
-    for (std::uint32_t k = 0; k < lookup_.triangle_count(s); ++k) {
-      const auto& [a, b, c] = lookup_.triangle(s, k).position;
-      areas[s] += 0.5 * glm::length(glm::cross(b - a, c - a));
-    }
-  }
-  const std::vector<bool> bright = choose_lamps(areas, emission, objects().bounds());
-  const double whole = std::accumulate(areas.begin(), areas.end(), 0.0);
-  std::vector<Color> of_lamps = emission;
-  for (std::uint32_t o = 0; o < objects().size(); ++o) {
-    const std::uint32_t first = lookup_.surface(o, 0), last = first + objects().object(o).sheet_count();
-    const auto is_dim = [&](std::uint32_t s) { return !is_black(emission[s]) && !bright[s]; };
-    double area = 0.0;
-    std::uint32_t count = 0;
-    for (std::uint32_t s = first; s < last; ++s) {
-      area += is_dim(s) ? areas[s] : 0.0;
-      count += is_dim(s) ? 1 : 0;
-    }
-    if (!(area > detail::large_body * whole) && count <= detail::most_faces) { continue; }
-    for (std::uint32_t s = first; s < last; ++s) { of_lamps[s] = is_dim(s) ? Color{0.0} : of_lamps[s]; }
-  }
-  return of_lamps;
 }
 
 HALFLIGHT_INLINE PhotonGrid FinalGather::send_lamp_photons(const std::vector<Surface>& boundaries, std::vector<Color> emission) const {

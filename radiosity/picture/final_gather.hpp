@@ -138,9 +138,6 @@ class FinalGather {
   // rays. Returns the variance that the estimate adds.
   [[nodiscard]] double mend_near(Sum& sum, const Place& place, double all, std::uint32_t rays, const GatherRays& effort,
                                  std::uint64_t key) const;
-  // The emission of the surfaces that may be lamps of the direct light. Where many shine, large bodies that are little brighter than the
-  // mean (lamp_choice.hpp) are found by rays.
-  [[nodiscard]] std::vector<Color> emission_of_lamps(const std::vector<Color>& emission) const;
   // Photons of the lamps, if there are several; their sources are indices of the direct light's lamps.
   [[nodiscard]] PhotonGrid send_lamp_photons(const std::vector<Surface>& boundaries, std::vector<Color> emission) const;
   // The sum of those channels that the surface reflects; the solution knows only these.

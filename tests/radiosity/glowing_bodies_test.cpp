@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -24,20 +25,23 @@
 
 namespace {
 
+radiosity::SceneObject mesh_of(const std::string& name, const soup::Soup& polygons) {
+  std::vector<std::vector<std::uint32_t>> faces;
+  for (std::size_t f = 0; f < polygons.count(); ++f) {
+    faces.emplace_back(polygons.corners.begin() + polygons.first[f], polygons.corners.begin() + polygons.first[f + 1]);
+  }
+  return scenes::object(name, raycast::Mesh::make(polygons.positions, faces).object);
+}
+
 // A closed room and a ring of triangles in it, all of which shine alike; with a lamp `brightness` times as bright, if that is not 0.
 radiosity::Scene glowing_room(radiosity::Random& random, double reflectance, double brightness) {
   soup::Soup ring;
   soup::add_torus(ring, 24, 14);
-  std::vector<std::vector<std::uint32_t>> faces;
-  for (std::size_t f = 0; f < ring.count(); ++f) {
-    faces.emplace_back(ring.corners.begin() + ring.first[f], ring.corners.begin() + ring.first[f + 1]);
-  }
   for (glm::dvec3& p : ring.positions) { p += glm::dvec3(2.0 + random.uniform(), 2.0 + random.uniform(), 1.0); }
   radiosity::Scene scene;
   scene.materials = {{"glow", radiosity::Color{reflectance}, radiosity::Color{1.0}},
                      {"lamp", radiosity::Color{0.0}, radiosity::Color{brightness}}};
-  scene.objects = {scenes::object("room", scenes::box({0, 0, 0}, {5, 5, 3}), 0, true),
-                   scenes::object("ring", raycast::Mesh::make(ring.positions, faces).object)};
+  scene.objects = {scenes::object("room", scenes::box({0, 0, 0}, {5, 5, 3}), 0, true), mesh_of("ring", ring)};
   if (brightness > 0.0) { scene.objects.push_back(scenes::plate("lamp", {{2, 2, 2.9}, {2, 3, 2.9}, {3, 3, 2.9}, {3, 2, 2.9}}, 1)); }
   return scene;
 }
@@ -65,13 +69,9 @@ TEST_CASE("what shines like all else is no lamp of a picture, and the light gath
   // A small bulb of many faces is a lamp, though it is little brighter than the mean: rays hardly meet it.
   soup::Soup bulb;
   soup::add_torus(bulb, 12, 6, 0.02, 0.01);
-  std::vector<std::vector<std::uint32_t>> faces;
-  for (std::size_t f = 0; f < bulb.count(); ++f) {
-    faces.emplace_back(bulb.corners.begin() + bulb.first[f], bulb.corners.begin() + bulb.first[f + 1]);
-  }
   for (glm::dvec3& p : bulb.positions) { p += glm::dvec3(1.0, 1.0, 2.0); }
   radiosity::Scene with_bulb = scene;
-  with_bulb.objects.push_back(scenes::object("bulb", raycast::Mesh::make(bulb.positions, faces).object));
+  with_bulb.objects.push_back(mesh_of("bulb", bulb));
   const radiosity::Solution by_bulb = scenes::solved(with_bulb, {.epsilon = 0.05, .min_area = 1e-3, .audit_points = 0});
   CHECK_FALSE(radiosity::FinalGather{with_bulb, by_bulb.mesh, by_bulb.frame}.direct().lamps().empty());
 }
