@@ -338,6 +338,12 @@ HALFLIGHT_INLINE void DirectLight::take_bodies(const std::vector<Surface>& surfa
     facets += faces;
     if (!body.convex && faces <= most_of_one) { body.facets = facets_of(object, tolerance); }
   }
+  for (Body& body : bodies_) {
+    body.runs.resize((body.facets.facets.size() + Body::of_run - 1) / Body::of_run);
+    for (std::size_t f = 0; f < body.facets.facets.size(); ++f) {
+      for (const glm::dvec3& p : body.facets.facets[f].contour) { body.runs[f / Body::of_run].extend(p); }
+    }
+  }
   if (whole_.empty()) { return; }
   objects.insert(objects.end(), second_halves.begin(), second_halves.end());
   const auto with_stand_ins = std::make_shared<raycast::Scene>(std::move(objects));

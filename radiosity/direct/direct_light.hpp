@@ -111,6 +111,8 @@ class DirectLight {
     bool closed = false;  // is it bounded by the visible faces alone?
     bool exact = false;   // are the facets the exact surface?
     raycast::Box bounds;
+    static constexpr std::size_t of_run = 16;
+    std::vector<raycast::Box> runs;  // bounds of facets 0 to 15, 16 to 31, and so on
     double lift = 0.0;  // if > 0, meshes stand in for it in segment tests, and points on it are lifted above them by this length
     std::array<std::vector<std::uint32_t>, 2> sheets;  // then: the sheet of each face of both meshes
   };

@@ -91,8 +91,10 @@ HALFLIGHT_INLINE bool LitRegion::take_bodies(Reach& reach, const raycast::PatchS
       all = false;
       continue;
     }
+    const auto missed = [&](const auto& shape) { return !shaft.empty() && shaft[0].misses(shape); };
+    if (missed(body.bounds)) { continue; }
     if (body.convex && body.closed && !lamp.behind[o]) {
-      if (shaft.empty() || !shaft[0].misses(body.bounds)) { reach.outlines.push_back(outline_of(body)); }
+      reach.outlines.push_back(outline_of(body));
       continue;
     }
     if (!body.exact && (body.convex ? body.closed : !(body.lift > 0.0))) {
@@ -103,15 +105,20 @@ HALFLIGHT_INLINE bool LitRegion::take_bodies(Reach& reach, const raycast::PatchS
     const bool own = std::find(lamp.object_of.begin(), lamp.object_of.end(), o) != lamp.object_of.end();
     const double thickness = slack + 2.0 * light_->true_objects_->object(o).slack();
     const auto in_lamp = [&](const glm::dvec3& p) { return std::abs(lamp.facets.facets[0].height(p)) <= thickness; };
-    const std::size_t before = reach.faces.size();
-    for (const Facets::Facet& facet : body.facets.facets) {
-      if (own && std::all_of(facet.contour.begin(), facet.contour.end(), in_lamp)) { continue; }
-      // A back face of a closed body: its front faces hide as much.
-      if (body.closed && facet.height(region_.centre) <= slack - region_.radius) { continue; }
-      if (!shaft.empty() && shaft[0].misses(facet.contour)) { continue; }
-      reach.faces.push_back({facet.contour, facet.normal});
+    const std::size_t before = reach.faces.size(), most = body.exact ? most_faces : most_of_stand_ins;
+    const std::span<const Facets::Facet> facets = body.facets.facets;
+    for (std::size_t run = 0; run < body.runs.size() && reach.faces.size() <= most; ++run) {
+      if (missed(body.runs[run])) { continue; }
+      const std::size_t first = run * DirectLight::Body::of_run;
+      for (const Facets::Facet& facet : facets.subspan(first, std::min(DirectLight::Body::of_run, facets.size() - first))) {
+        if (own && std::all_of(facet.contour.begin(), facet.contour.end(), in_lamp)) { continue; }
+        // A back face of a closed body: its front faces hide as much.
+        if (body.closed && facet.height(region_.centre) <= slack - region_.radius) { continue; }
+        if (missed(facet.contour)) { continue; }
+        reach.faces.push_back({facet.contour, facet.normal});
+      }
     }
-    if (reach.faces.size() > (body.exact ? most_faces : most_of_stand_ins)) {
+    if (reach.faces.size() > most) {
       reach.faces.resize(before);
       all = false;
     }
