@@ -117,16 +117,27 @@ HALFLIGHT_INLINE OccluderList Scene::list_of(const OccluderList* parent, const P
 
   // A polygon matters only if one corner lies behind its plane and another in front of it, by more than rounding: half the skin of
   // scene.hpp, because the points are accurate to a fraction of it.
-  const auto touches = [&](std::uint32_t object) {
-    const Record& r = records_[object];
+  const auto on_both_sides = [&](const Record& polygon) {
     double low = infinity, high = -infinity;
     for (const auto& contour : {p, q}) {
       for (const glm::dvec3& x : contour) {
-        const double height = glm::dot(r.normal, x - r.point);
+        const double height = glm::dot(polygon.normal, x - polygon.point);
         low = std::min(low, height), high = std::max(high, height);
       }
     }
     return !(low - bulge >= -0.5 * rounding_ || high + bulge <= 0.5 * rounding_);
+  };
+  // A crossing of an open surface is ignored up to a skin from an end (scene.hpp). So a face in whose plane one of the patches lies does
+  // not matter: decals, things that stand on others, walls back to back.
+  const auto lies_in = [&](const PatchShape& patch, const std::array<glm::dvec3, 4>& contour, std::uint32_t object, std::uint32_t sheet) {
+    const End end = end_at(patch.owner);
+    const Box near = objects_[object].bounds().grown(0.5 * skin(end, object));
+    return patch.bulge == 0.0 && std::all_of(contour.begin(), contour.end(),
+                                             [&](const glm::dvec3& x) { return near.contains(x) && touches(x, end, object, sheet); });
+  };
+  const auto matters = [&](std::uint32_t object, std::uint32_t sheet) {
+    if (records_[object].corner_count) { return on_both_sides(records_[object]); }
+    return !lies_in(a, p, object, sheet) && !lies_in(b, q, object, sheet);
   };
   std::array<std::optional<bool>, 2> skipped;  // cached, because a convex solid with stored faces is tested for each of them
   const auto skips = [&](std::uint32_t object) {
@@ -136,8 +147,8 @@ HALFLIGHT_INLINE OccluderList Scene::list_of(const OccluderList* parent, const P
     return *known;
   };
   const std::uint32_t count =
-      parent ? HALFLIGHT_DISPATCH(isa_, narrow(compiled_, c, parent->shapes_.data(), parent->count_, list.shapes_.data(), touches, skips))
-             : HALFLIGHT_DISPATCH(isa_, gather(compiled_, c, list.shapes_.data(), OccluderList::capacity, touches, skips));
+      parent ? HALFLIGHT_DISPATCH(isa_, narrow(compiled_, c, parent->shapes_.data(), parent->count_, list.shapes_.data(), matters, skips))
+             : HALFLIGHT_DISPATCH(isa_, gather(compiled_, c, list.shapes_.data(), OccluderList::capacity, matters, skips));
   if (count == ~0u) {
     list.state_ = OccluderList::State::blocked;
   } else if (count <= OccluderList::capacity) {

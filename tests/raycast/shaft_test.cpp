@@ -152,3 +152,65 @@ TEST_CASE("a pair that a wall separates is blocked, and one in an empty room is 
   CHECK_FALSE(half.clear());
   CHECK_FALSE(half.blocked());
 }
+
+TEST_CASE("patches in the planes of open surfaces: lists give the answers of the law, and these planes block nothing") {
+  SEEDED(random);
+  std::size_t blocked = 0, open = 0;
+  for (int turn = 0; turn < 40; ++turn) {
+    const Placement at{random.magnitude(4) * random.rotation(), random.magnitude(2) * random.in_cube()};
+    const auto moved = [&](const dvec3& x) { return at.linear * x + at.translation; };
+    std::vector<PlacedObject> objects;
+    std::vector<TestPatch> patches;
+    // One open mesh of rectangles with corners of their own.
+    const auto take = [&](const std::vector<Corners>& rectangles) {
+      std::vector<dvec3> positions;
+      std::vector<std::vector<std::uint32_t>> faces;
+      for (const Corners& r : rectangles) {
+        TestPatch patch{{}, static_cast<std::uint32_t>(objects.size()), 0.0, static_cast<std::uint32_t>(faces.size())};
+        faces.emplace_back();
+        for (const dvec3& x : r) {
+          faces.back().push_back(static_cast<std::uint32_t>(positions.size()));
+          positions.push_back(moved(x));
+          patch.contour.push_back(positions.back());
+        }
+        patches.push_back(patch);
+      }
+      objects.push_back(placed(Mesh::make(positions, faces)));
+    };
+    const auto lying = [&](double z, bool up) {
+      const dvec3 from{random.uniform(-1, 0.6), random.uniform(-1, 0.6), z}, x{random.uniform(0.1, 0.4), 0, 0},
+          y{0, random.uniform(0.1, 0.4), 0};
+      return up ? rectangle(from, x, y) : rectangle(from, y, x);
+    };
+    take({rectangle({-1, -1, 0}, {1, 0, 0}, {0, 2, 0}), rectangle({0, -1, 0}, {1, 0, 0}, {0, 2, 0})});  // a floor
+    take({lying(0, true), lying(0, false), lying(0, true)});                                            // decals on it
+    take({rectangle({-0.3, -0.3, 2}, {0, 0.6, 0}, {0.6, 0, 0})});
+    const Scene bare(objects);
+    for (std::size_t decal = 2; decal < 5; ++decal) { REQUIRE(bare.occluders(patches[decal].shape(), patches[5].shape()).clear()); }
+    for (int i = 0; i < 6; ++i) {  // boxes without bottom, some with a wall in common
+      const dvec3 from{random.uniform(-1, 0.4), random.uniform(-1, 0.6), 0};
+      for (double x = from.x; x < from.x + 0.5; x += 0.25) {
+        std::vector<Corners> walls = faces_of({x, from.y, 0}, {x + 0.25, from.y + random.uniform(0.1, 0.4), random.uniform(0.1, 1.5)});
+        std::erase_if(walls,
+                      [](const Corners& wall) { return std::all_of(wall.begin(), wall.end(), [](const dvec3& p) { return p.z == 0.0; }); });
+        take(walls);
+      }
+    }
+    const auto sets = instruction_sets();
+    const Scene scene(objects, sets[static_cast<std::size_t>(turn) % sets.size()]);
+    const auto any = [&] { return patches[random.below(static_cast<std::uint32_t>(patches.size()))]; };
+    for (int i = 0; i < 200; ++i) {
+      TestPatch p = any(), q = any();
+      OccluderList list = scene.occluders(p.shape(), q.shape());
+      for (int level = 0; level < 3; ++level) {
+        INFO("turn " << turn << " pair " << i << " level " << level);
+        check_pair(random, scene, p, q, list, [](const TestPatch&, const dvec3& x) { return x; });
+        (list.clear() ? open : blocked) += list.clear() || list.blocked();
+        p = child(random, p), q = child(random, q);
+        list = scene.filter(list, p.shape(), q.shape());
+      }
+    }
+  }
+  CHECK(open > 300);
+  CHECK(blocked > 100);
+}
