@@ -9,6 +9,7 @@
 // curved lamp is replaced by a polyhedron of the same area whose outline is off by at most 0.2 % of its diameter.
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <vector>
