@@ -126,32 +126,17 @@ struct Pending {
 #define HALFLIGHT_LANES 4
 #define HALFLIGHT_TARGET
 #include "kernels/all.inc"
-#undef HALFLIGHT_ISA
-#undef HALFLIGHT_LANES
-#undef HALFLIGHT_TARGET
-#undef HALFLIGHT_OP
-#undef HALFLIGHT_LAMBDA
 
 #ifdef HALFLIGHT_X86
 #define HALFLIGHT_ISA avx2
 #define HALFLIGHT_LANES 8
 #define HALFLIGHT_TARGET __attribute__((target("avx2,fma,bmi,popcnt")))
 #include "kernels/all.inc"
-#undef HALFLIGHT_ISA
-#undef HALFLIGHT_LANES
-#undef HALFLIGHT_TARGET
-#undef HALFLIGHT_OP
-#undef HALFLIGHT_LAMBDA
 
 #define HALFLIGHT_ISA avx512
 #define HALFLIGHT_LANES 16
 #define HALFLIGHT_TARGET __attribute__((target("avx512f,avx512vl,avx512dq,avx512bw,avx2,fma,bmi,popcnt")))
 #include "kernels/all.inc"
-#undef HALFLIGHT_ISA
-#undef HALFLIGHT_LANES
-#undef HALFLIGHT_TARGET
-#undef HALFLIGHT_OP
-#undef HALFLIGHT_LAMBDA
 #endif
 
 // Calls the function of this name in the namespace of the instruction set.

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
-#include <optional>
 #include <set>
 
 #include <raycast/scene.hpp>
@@ -26,7 +25,8 @@ bool is_shown(const glm::vec3& pixel) {
   return std::max({pixel.x, pixel.y, pixel.z}) >= black_below;
 }
 
-// What the rays of a coarse picture meet first, and the number of those that see a front, through backs or not, and of black ones.
+// What the rays of a coarse picture meet: `fronts` and `backs` count what they meet first, `seen` those that meet a front after any number
+// of backs, `black` those of them whose pixels are black.
 struct Coarse {
   static constexpr int across = 32, down = 24, rays = across * down;
   int fronts = 0, backs = 0, seen = 0, black = 0;
@@ -54,7 +54,8 @@ std::string advice(const SceneFile& file) {
   return place + " or a brighter picture (--exposure 4ev)";
 }
 
-// Nine tenths of the light that is reflected by what does not shine come from surfaces that are at least so bright, in the mean over each.
+// The radiosity such that surfaces at least as bright reflect nine tenths of all reflected light. Surfaces that shine do not count; each
+// other one counts with its mean.
 double usual_light(const radiosity::Scene& scene, const std::vector<radiosity::SurfaceMean>& means) {
   struct Reflected {
     double level = 0.0, power = 0.0;
@@ -97,7 +98,7 @@ std::string warning_of_picture(const radiosity::Picture& picture, const SceneFil
   for (const radiosity::Material& material : file.scene.materials) { most = std::max(most, radiosity::brightest(material.emission)); }
   const auto lit = [&](const glm::dvec3& radiosity) { return radiosity::brightest(radiosity) > 1e-9 * most; };
   if (std::none_of(picture.radiosity.begin(), picture.radiosity.end(), lit)) { return of_no_light(Coarse(picture, file, view)); }
-  // Where clearly more than a tenth of all pixels is not black, nobody needs to look what the rays of a coarse picture meet.
+  // If clearly more than a tenth of all pixels is not black, the warning cannot apply, so no rays are cast.
   const auto shown = static_cast<double>(std::count_if(picture.shown.begin(), picture.shown.end(), is_shown));
   if (shown <= 2.0 * (1.0 - most_black) * static_cast<double>(picture.shown.size())) {
     const Coarse coarse(picture, file, view);

@@ -99,10 +99,10 @@ ExitCode report_failure(const radiosity::Failure& failure, const std::string& sc
   return ExitCode::invalid_input;
 }
 
-// How --memory is shared out. By measurement on the examples a picture takes up to 80 bytes a pixel on top of the peak of the run, which is
-// not given back, and one in gathered light 190, for what is seen there, and tables that grow with the solution, for which the run's own
-// prediction of its peak, up to twice too high, leaves room. Where that does not suffice, as in pixels that show many things, the picture
-// shows the mesh (Artist::method).
+// How --memory is divided. Measured on the examples: beyond the peak of the run, a picture of the mesh takes up to 80 bytes a pixel, and
+// one in gathered light 190 bytes a pixel and tables that grow with the solution. The run predicts its own peak up to twice too high, which
+// leaves room for these tables. If that is still not enough, for instance where pixels show many things each, the picture shows the mesh
+// (Artist::method).
 struct MemoryShares {
   std::uint64_t held = 0;     // by the program and the scene, before the run
   std::uint64_t picture = 0;  // 0: there is none
@@ -200,7 +200,7 @@ ExitCode write_solution(Artist& artist, const radiosity::Solution& solution, con
                     ExitCode::not_converged);
   }
   if (const ExitCode code = complain_of_picture(artist); code != ExitCode::ok) { return code; }
-  // What path tracing found wrong is told by the report; nobody had asked for an accuracy.
+  // No accuracy was asked for, so an error that path tracing has found is not a failure: the report states it.
   using Status = radiosity::RunStatus;
   const Status status = solution.audit.status();
   if (status == Status::converged || status == Status::estimate_refuted || status == Status::far_off || status == Status::error_unknown) {
@@ -255,7 +255,7 @@ ExitCode run(const RenderOptions& options) {
   control.cancel = &watch_interrupts();  // from here on there may be something to show; until here a signal ends the program
 
   radiosity::Options settings = solver_options(options);
-  std::string of_limit;  // what else takes part of it, for the sentence of a run that it ends
+  std::string of_limit;  // what else the memory is needed for; told if the limit ends the run
   if (options.memory) {
     const MemoryShares others = memory_shares(options, *camera);
     const std::string limit = "--memory allows " + radiosity::memory_text(*options.memory);

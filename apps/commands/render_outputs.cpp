@@ -202,7 +202,7 @@ const radiosity::Picture* drawn(Artist& artist, const radiosity::Solution& solut
     method = PictureMethod::mesh;
     picture = artist.draw_mesh(solution.shown(), tone);
   } else if (method != options.method) {
-    report.audit.picture_error.reset();  // may be that of an earlier picture, which did fit
+    report.audit.picture_error.reset();  // an earlier picture, which did fit into memory, may have left one
     report.audit.left_out.push_back({gathering, "it would take more than the memory allowed", ""});
   }
   report.picture = PictureReport{artist.camera(), artist.size().width, artist.size().height, method};

@@ -188,7 +188,7 @@ std::optional<Embedding> embed(const PlanarMap& map, std::uint32_t outer, double
   }
   double room = 0.0;
   for (std::size_t i = 1; i + 1 < net.outer_ring.size(); ++i) {
-    room -= 0.5 * area(x[net.outer_ring[0]], x[net.outer_ring[i]], x[net.outer_ring[i + 1]]);
+    room -= 0.5 * twice_area(x[net.outer_ring[0]], x[net.outer_ring[i]], x[net.outer_ring[i + 1]]);
   }
   solve(net, fixed, x);
   const double scale = std::sqrt(room / net.rest_area);

@@ -108,7 +108,7 @@ bool cross(const std::vector<Point>& s, const std::vector<Point>& t) {
   for (std::size_t i = 1; i < s.size(); ++i) {
     for (std::size_t j = 1; j < t.size(); ++j) {
       const Point &a = s[i - 1], &b = s[i], &c = t[j - 1], &d = t[j];
-      if (area(a, b, c) * area(a, b, d) < 0 && area(c, d, a) * area(c, d, b) < 0) { return true; }
+      if (twice_area(a, b, c) * twice_area(a, b, d) < 0 && twice_area(c, d, a) * twice_area(c, d, b) < 0) { return true; }
     }
   }
   return false;

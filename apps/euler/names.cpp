@@ -104,8 +104,8 @@ class Region {
     int winding = 0;
     for (std::size_t i = 0; i < points_.size(); ++i) {
       const Point a = points_[i], b = points_[(i + 1) % points_.size()];
-      if (a.y <= p.y && b.y > p.y && area(a, b, p) > 0) { ++winding; }
-      if (a.y > p.y && b.y <= p.y && area(a, b, p) < 0) { --winding; }
+      if (a.y <= p.y && b.y > p.y && twice_area(a, b, p) > 0) { ++winding; }
+      if (a.y > p.y && b.y <= p.y && twice_area(a, b, p) < 0) { --winding; }
     }
     return (winding != 0) != outer_;
   }
@@ -125,7 +125,7 @@ class Region {
           const Point a = points_[i], b = points_[(i + 1) % points_.size()];
           const double d = distance(p, a, b);
           // For a point equally near to both sides of a spur, the side it is on decides.
-          if (d < site.room - 1e-9 || (d < site.room + 1e-9 && area(a, b, p) > 0)) {
+          if (d < site.room - 1e-9 || (d < site.room + 1e-9 && twice_area(a, b, p) > 0)) {
             site.room = d;
             site.owner = owner_[i];
           }

@@ -58,7 +58,7 @@ double dot(const std::vector<Point>& a, const std::vector<Point>& b) {
 
 bool all_turn_left(const Net& net, const std::vector<Point>& x) {
   return std::all_of(net.triangles.begin(), net.triangles.end(),
-                     [&](const Triangle& t) { return area(x[t.corner[0]], x[t.corner[1]], x[t.corner[2]]) > 0; });
+                     [&](const Triangle& t) { return twice_area(x[t.corner[0]], x[t.corner[1]], x[t.corner[2]]) > 0; });
 }
 
 void unfold(const Net& net, double scale, const std::vector<bool>& fixed, std::vector<Point>& x) {
@@ -100,7 +100,7 @@ void unfold(const Net& net, double scale, const std::vector<bool>& fixed, std::v
           const auto& corner = net.triangles[t].corner;
           const Point& b = x[corner[(k + 1) % 3]];
           const Point& c = x[corner[(k + 2) % 3]];
-          const double before = area(x[i], b, c), after = area(x[i] + step, b, c);
+          const double before = twice_area(x[i], b, c), after = twice_area(x[i] + step, b, c);
           open = open && after > 0.2 * before;
           change = std::max(change, std::abs(after / before - 1.0));
         }

@@ -36,7 +36,7 @@ struct Net {
 };
 
 // Twice the signed area of a triangle: above 0 if a, b, c turn left, that is, if c lies to the left of the line from a to b.
-[[nodiscard]] inline double area(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
+[[nodiscard]] inline double twice_area(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
   return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 [[nodiscard]] bool all_turn_left(const Net& net, const std::vector<glm::dvec2>& x);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "apps/export/export_mesh.hpp"
 
-#include <algorithm>
 #include <map>
 #include <numeric>
 #include <tuple>

@@ -5,7 +5,6 @@
 // solution, or of the polygons in the user's file, in that file's order and coordinates. A format is one file in this folder and one line
 // in export_mesh.cpp.
 
-#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>

@@ -20,7 +20,7 @@ namespace apps {
 // Every decision is a sentence in SceneFile::notes. The scene is in metres, z up.
 class AddedLight {
  public:
-  // What remains as it is.
+  // What must not be changed.
   struct Fixed {
     bool eye = false;    // the first camera, because the user chose it
     bool light = false;  // what shines, because the user chose it, or wants no lamp, or because the file has lights besides

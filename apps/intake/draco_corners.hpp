@@ -12,7 +12,6 @@
 //           . /
 //        opposite(c)
 
-#include <cstddef>
 #include <cstdint>
 #include <vector>
 

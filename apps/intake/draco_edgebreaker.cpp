@@ -5,7 +5,6 @@
 #include <array>
 #include <map>
 #include <optional>
-#include <string>
 #include <utility>
 
 #include "apps/intake/draco_rans.hpp"

@@ -5,7 +5,6 @@
 // as here, each symbol says how a new triangle is glued to the boundary of those that are there.
 
 #include <cstddef>
-#include <cstdint>
 #include <vector>
 
 #include "apps/intake/draco_corners.hpp"

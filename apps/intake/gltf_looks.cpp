@@ -7,7 +7,6 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
-#include <utility>
 
 #include "apps/intake/texture.hpp"
 #include "apps/mesh_file/reading.hpp"

@@ -225,7 +225,8 @@ class LampMaker {
       const double height = glm::dot(place - middle, up);
       if (height > least * lit_.diameter()) { factor = std::max(factor, margin * distance / height); }
     };
-    // The box of what may hide the sun from any place meets the light on its way to the box of what is lit.
+    // The middle of what is lit sees the sun along this line. A part of the sky may hide the sun from some place only if its box, enlarged
+    // by half the box of what is lit, meets the line.
     const raycast::SlabTest to_sun({middle, 2.0 * distance * up});
     std::vector<raycast::PlacedObject> placed;
     std::vector<glm::dvec3> centres;

@@ -14,6 +14,7 @@
 #include <glm/vec3.hpp>
 
 #include <radiosity/camera/tone.hpp>
+#include <radiosity/support/draw.hpp>
 
 namespace apps::intake {
 namespace {
@@ -80,7 +81,7 @@ void PolygonColors::lay(Of of, Model& model, std::vector<Factors>& factors, Note
     double area = 0.0, known = 0.0;
     for (std::uint32_t c = first + 1; c + 1 < end; ++c) {
       const auto at = [&](std::uint32_t corner) { return model.positions[model.corners[corner]]; };
-      const double size = 0.5 * glm::length(glm::cross(at(c) - at(first), at(c + 1) - at(first)));
+      const double size = radiosity::triangle_area(at(first), at(c), at(c + 1));
       area += size;
       const glm::dvec2 a(places_[first]), b(places_[c]), d(places_[c + 1]);
       if (!std::isfinite(a.x + a.y + b.x + b.y + d.x + d.y) || !(size > 0.0)) { continue; }

@@ -133,10 +133,10 @@ inline double worst(const Solution& solution, double value) {
 }
 
 // The largest relative difference of the means of two solutions of the same surfaces, over surfaces that are lit in the second.
-inline double apart(const Solution& a, const Solution& b, double factor = 1.0) {
+inline double largest_relative_difference(const Solution& a, const Solution& b) {
   double difference = a.audit.surfaces.size() == b.audit.surfaces.size() ? 0.0 : std::numeric_limits<double>::quiet_NaN();
   for (std::size_t i = 0; i < a.audit.surfaces.size() && i < b.audit.surfaces.size(); ++i) {
-    const double reference = factor * b.audit.surfaces[i].radiosity.x;
+    const double reference = b.audit.surfaces[i].radiosity.x;
     if (reference > 0.0) { difference = std::max(difference, relative(a.audit.surfaces[i].radiosity.x, reference)); }
   }
   return difference;

@@ -51,7 +51,7 @@ constexpr Case cases_of_size[] = {
        const Solution one = findings.solve(written(1.0, 0.0), coarse());
        double off = 0.0;
        for (const double factor : {1e-9, 1e-6, 1e-3, 1e3, 1e6, 1e9}) {
-         off = std::max(off, apart(findings.solve(written(factor, 0.0), coarse()), one));
+         off = std::max(off, largest_relative_difference(findings.solve(written(factor, 0.0), coarse()), one));
        }
        findings.at_most("1e-9 ... 1e9: B against 1, relative", off, 1e-4);
        double bits = 0.0;
@@ -61,12 +61,12 @@ constexpr Case cases_of_size[] = {
     {"offset", "scenes far from the origin", "the frame is centred on the scene; what coordinates have lost there is said",
      [](Findings& findings) {
        const Solution one = findings.solve(written(1.0, 0.0), coarse());
-       const auto off = [&](double by) { return apart(findings.solve(written(1.0, by), coarse()), one); };
+       const auto off = [&](double by) { return largest_relative_difference(findings.solve(written(1.0, by), coarse()), one); };
        findings.at_most("1e3 sizes: B, relative", off(1e3), 1e-6);
        findings.at_most("1e5 sizes: B, relative", off(1e5), 1e-6);
        // Here coordinates are known to 1e-9 of the room's size, and so is the light.
        const Solution far = findings.solve(written(1.0, 1e7), coarse());
-       findings.at_most("1e7 sizes: B, relative", apart(far, one), 1e-6);
+       findings.at_most("1e7 sizes: B, relative", largest_relative_difference(far, one), 1e-6);
        findings.warned("1e7 sizes", far, "from the origin");
      }},
     {"lamp", "a lamp of 1e-5", "against a patch a thousand times larger a small one is integrated as a point; thresholds are relative",

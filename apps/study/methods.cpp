@@ -170,8 +170,7 @@ std::vector<MethodPlan> methods(const MethodOptions& study) {
                              "a pair is linked where its form factor is small (paper 4.4), and split on where the light of a lamp varies "
                              "(our light oracle, not in the paper); faces are split by Euler operators",
                              "epsilon", epsilons, faces, set_epsilon));
-  Options clusters = common(study);
-  clusters.indirect = radiosity::Indirect::links;
+  Options clusters = faces;
   clusters.cluster_from = 2;
   all.push_back(hierarchical("F, clusters", with_clusters, "epsilon", epsilons, clusters, set_epsilon));
   all.push_back(hierarchical("hierarchical BF", "solve, then refine the links that carry the most error (paper 4.4)", "target", targets,

@@ -79,7 +79,7 @@ class Page {
     double goal = 0.0;
     std::size_t most = 0;
     for (const double target : targets(scene)) {  // in decreasing order
-      const auto reaches = [&](const Method& m) { return cheapest_within(m, scene.reference, target, Cost::cpu_time) != nullptr; };
+      const auto reaches = [&](const Method& m) { return cheapest_within(m, scene.reference, target) != nullptr; };
       const auto count = static_cast<std::size_t>(std::count_if(scene.methods.begin(), scene.methods.end(), reaches));
       if (count >= most) { goal = target, most = count; }
     }
@@ -87,8 +87,7 @@ class Page {
     std::vector<const Run*> runs;
     for (const std::string& name : names) {
       const auto method = std::find_if(scene.methods.begin(), scene.methods.end(), [&](const Method& m) { return m.name == name; });
-      const Run* run =
-          method == scene.methods.end() || most == 0 ? nullptr : cheapest_within(*method, scene.reference, goal, Cost::cpu_time);
+      const Run* run = method == scene.methods.end() || most == 0 ? nullptr : cheapest_within(*method, scene.reference, goal);
       runs.push_back(run);
       if (run != nullptr && (least == 0.0 || run->cpu_seconds < least)) { least = run->cpu_seconds; }
     }

@@ -14,6 +14,7 @@
 #include <radiosity/hierarchy/polygons.hpp>
 #include <radiosity/hierarchy/surface.hpp>
 #include <radiosity/scene/batches.hpp>
+#include <radiosity/scene/material.hpp>
 #include <radiosity/support/parallel.hpp>
 #include <radiosity/support/random.hpp>
 #include <radiosity/support/sobol.hpp>
@@ -64,7 +65,7 @@ void add_cell(TrueRadiosity& truth, const radiosity::Prepared& prepared, const r
       const raycast::ScenePoint point{prepared.objects.object(leaf.object).project(sheet, chord), leaf.object, sheet};
       if (prepared.objects.covered(point)) { continue; }
       ++exposed;
-      if (!found) { truth.points.push_back({point, cell, Color{0.0}, Color{0.0}}); }
+      if (!found) { truth.points.push_back({point, Color{0.0}, Color{0.0}}); }
       found = true;
     }
   }
@@ -230,7 +231,7 @@ Errors errors_of(const TrueRadiosity& truth, const std::vector<Color>& values, s
     const Color error = mean(cell, [&](std::uint32_t i) { return values[i] - truth.points[i].radiosity; });
     cells.add(cell.area, error);
     brightest = std::max(brightest, magnitude(mean(cell, [&](std::uint32_t i) { return truth.points[i].radiosity; })));
-    if (signed_cells != nullptr) { signed_cells->push_back(error.x + error.y + error.z); }
+    if (signed_cells != nullptr) { signed_cells->push_back(radiosity::sum_of_channels(error)); }
     for (std::uint32_t i = cell.first_point; i < cell.first_point + cell.points; ++i) {
       points.add(point_weight(cell), values[i] - truth.points[i].radiosity);
     }

@@ -29,7 +29,6 @@ namespace study {
 
 struct ReferencePoint {
   raycast::ScenePoint at;  // in the coordinates of the frame
-  std::uint32_t cell = 0;
   radiosity::Color radiosity{0.0};
   radiosity::Color standard_error{0.0};
 };

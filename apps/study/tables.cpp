@@ -42,7 +42,7 @@ Table summary_table(const SceneStudy& scene) {
   for (const Method& method : scene.methods) {
     TableRow row{{method.name}, false, false, ""};
     for (const double goal : goals) {
-      const Run* run = cheapest_within(method, scene.reference, goal, Cost::cpu_time);
+      const Run* run = cheapest_within(method, scene.reference, goal);
       row.cells.push_back(run != nullptr ? seconds(run->cpu_seconds) : "–");
       if (goal != goals.back()) { continue; }
       row.cells.push_back(run != nullptr ? memory_text(*run) : "–");
@@ -124,9 +124,7 @@ std::vector<std::string> findings(const SceneStudy& scene) {
   for (const double target : targets(scene)) {
     std::vector<std::pair<double, const Method*>> reached;
     for (const Method& method : scene.methods) {
-      if (const Run* run = cheapest_within(method, scene.reference, target, Cost::cpu_time)) {
-        reached.emplace_back(run->cpu_seconds, &method);
-      }
+      if (const Run* run = cheapest_within(method, scene.reference, target)) { reached.emplace_back(run->cpu_seconds, &method); }
     }
     std::stable_sort(reached.begin(), reached.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
     std::string text =

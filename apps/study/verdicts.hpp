@@ -171,12 +171,12 @@ enum class Cost { cpu_time, memory, links };
   return front;
 }
 
-// The cheapest run of a method whose error is at most `target`.
-[[nodiscard]] inline const Run* cheapest_within(const Method& method, const Reference& reference, double target, Cost cost) {
+// The run of a method that takes least CPU time of those whose error is at most `target`.
+[[nodiscard]] inline const Run* cheapest_within(const Method& method, const Reference& reference, double target) {
   const Run* best = nullptr;
   for (const Run& run : method.runs) {
     const bool reached = main_error(run, reference).value <= target;  // false for NaN
-    if (reached && (best == nullptr || cost_of(run, cost) < cost_of(*best, cost))) { best = &run; }
+    if (reached && (best == nullptr || cost_of(run, Cost::cpu_time) < cost_of(*best, Cost::cpu_time))) { best = &run; }
   }
   return best;
 }
@@ -188,7 +188,7 @@ enum class Cost { cpu_time, memory, links };
     const double error = main_error(run, reference).value;
     if (!std::isfinite(error)) { continue; }
     const double least = best == nullptr ? std::numeric_limits<double>::infinity() : main_error(*best, reference).value;
-    if (error < least || (error == least && run.cpu_seconds < best->cpu_seconds)) { best = &run; }
+    if (error < least || (error == least && cost_of(run, Cost::cpu_time) < cost_of(*best, Cost::cpu_time))) { best = &run; }
   }
   return best;
 }
@@ -200,7 +200,7 @@ enum class Cost { cpu_time, memory, links };
     for (const double k : {1.0, 0.5, 0.2}) {
       const double target = k * std::pow(10.0, decade);
       for (const Method& method : scene.methods) {
-        if (cheapest_within(method, scene.reference, target, Cost::cpu_time) != nullptr) {
+        if (cheapest_within(method, scene.reference, target) != nullptr) {
           reached.push_back(target);
           break;
         }

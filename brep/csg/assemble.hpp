@@ -84,7 +84,7 @@ class Assemble {
  private:
   [[nodiscard]] bool kept(std::uint32_t h) const { return keep_[work_.halves[h].face] != 0; }
 
-  // Makes one edge of that of h and the one before it.
+  // Removes the vertex at which h begins: the edge of h and the edge before it become one.
   void drop(std::uint32_t h);
 
   bool pair(const Spine& a, const Spine& b);

@@ -7,8 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include <glm/vec3.hpp>
-
 #include <brep/csg/boundary.hpp>
 #include <brep/csg/plane.hpp>
 #include <brep/csg/point_table.hpp>

@@ -37,8 +37,6 @@ class Grid {
   [[nodiscard]] const glm::dvec3& centre() const { return centre_; }                                // a point of the grid
   [[nodiscard]] glm::dvec3 to_grid(const glm::dvec3& p) const { return (p - centre_) / spacing_; }  // not rounded
   [[nodiscard]] glm::dvec3 from_grid(const glm::dvec3& p) const { return p * spacing_ + centre_; }
-  // The point of the grid next to p. |p - snap(p)| <= spacing / 2 in each coordinate.
-  [[nodiscard]] glm::dvec3 snap(const glm::dvec3& p) const { return from_grid(glm::round(to_grid(p))); }
   // Does p, snapped, lie on the grid? Half a unit is kept free, for planes that round outwards.
   [[nodiscard]] bool contains(const glm::dvec3& p) const {
     const glm::dvec3 q = glm::abs(to_grid(p));

@@ -55,7 +55,6 @@ Int128 gcd(Int128 x, Int128 y);
 class PlaneTable {
  public:
   [[nodiscard]] const Plane& operator[](PlaneNumber p) const { return planes_[p]; }
-  [[nodiscard]] std::size_t size() const { return planes_.size(); }
 
   // The plane with this normal, not zero, and offset, looking where the normal points.
   OrientedPlane insert(std::array<std::int64_t, 3> n, Int128 d);

@@ -5,8 +5,6 @@
 #include <cstddef>
 #include <cstdint>
 
-#include <glm/vec3.hpp>
-
 #include <brep/csg/boundary.hpp>
 #include <brep/csg/plane.hpp>
 #include <brep/csg/wide.hpp>

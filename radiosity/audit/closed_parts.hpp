@@ -10,8 +10,6 @@
 // A lamp panel under a ceiling is black from behind. A room with such lamps loses light there alone, so that all patches in front of the
 // planes of these panels, the floor and most of the walls, still have row sums of 1.
 
-#include <vector>
-
 #include <radiosity/refinement/discrete_scene.hpp>
 #include <radiosity/result/audit.hpp>
 

@@ -32,6 +32,7 @@
 #include <radiosity/geometry/photon_grid.hpp>
 #include <radiosity/hierarchy/surface.hpp>
 #include <radiosity/scene/material.hpp>
+#include <radiosity/support/draw.hpp>
 
 namespace radiosity {
 
@@ -43,7 +44,7 @@ HALFLIGHT_INLINE bool Emitters::even(const std::vector<Surface>& surfaces, const
       const std::uint32_t sheet = surface.brep.data(f).sheet;
       if (sheet == brep::no_sheet) { continue; }
       const Color& e = emission[surface.first_surface + sheet];
-      const double exitance = e.x + e.y + e.z, of_face = brep::area(surface.brep, f);
+      const double exitance = sum_of_channels(e), of_face = brep::area(surface.brep, f);
       area += of_face;
       power += of_face * exitance;
       brightest = std::max(brightest, exitance);
@@ -61,7 +62,7 @@ HALFLIGHT_INLINE bool Emitters::even(const std::vector<Surface>& surfaces, const
     const std::uint32_t sheet = surface.brep.data(f).sheet;
     if (sheet == brep::no_sheet || !surface.object->flat()) { continue; }
     const Color& e = emission[surface.first_surface + sheet];
-    ++count[e.x + e.y + e.z];
+    ++count[sum_of_channels(e)];
   }
   return count;
 }
@@ -83,7 +84,7 @@ HALFLIGHT_INLINE Emitters::Emitters(const std::vector<Surface>& surfaces, const 
       for (const brep::HalfedgeId h : brep::halfedges_of(surface.brep, f)) {
         polygon.push_back(surface.brep.data(surface.brep.vertex(h)).position);
       }
-      const double sum = exitance.x + exitance.y + exitance.z;
+      const double sum = sum_of_channels(exitance);
       if (!surface.object->flat()) {
         curved[sheet].push_back(std::move(polygon));
       } else if (alike.at(sum) <= most_single_faces) {
@@ -99,9 +100,7 @@ HALFLIGHT_INLINE Emitters::Emitters(const std::vector<Surface>& surfaces, const 
     }
     for (std::uint32_t s = 0; s < curved.size(); ++s) {
       const Color& exitance = emission[surface.first_surface + s];
-      if (!curved[s].empty()) {
-        add_curved(surface.first_surface + s, curved[s], *surface.object, s, exitance.x + exitance.y + exitance.z);
-      }
+      if (!curved[s].empty()) { add_curved(surface.first_surface + s, curved[s], *surface.object, s, sum_of_channels(exitance)); }
     }
   }
   if (shapes_.empty()) { return; }
@@ -156,7 +155,7 @@ HALFLIGHT_INLINE void Emitters::add_spheres(std::uint32_t surface, std::span<std
   Shape shape;
   raycast::Box bounds, middles;
   for (const auto& [a, b, c] : pieces) {
-    shape.area += 0.5 * glm::length(glm::cross(b - a, c - a));
+    shape.area += triangle_area(a, b, c);
     for (const glm::dvec3& p : {a, b, c}) { bounds.extend(p); }
     middles.extend((a + b + c) / 3.0);
   }

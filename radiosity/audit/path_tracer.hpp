@@ -62,7 +62,7 @@ class PathTracer {
     }
     for (const Material& material : scene.materials) {
       const Color& rho = material.reflectance;
-      brightest_ = std::max({brightest_, rho.x, rho.y, rho.z});
+      brightest_ = std::max(brightest_, brightest(rho));
     }
     for (const Surface& surface : surfaces) { first_surface_.push_back(surface.first_surface); }
     emitters_ = Emitters{surfaces, emission};
@@ -79,7 +79,7 @@ class PathTracer {
     std::vector<BrightPlaces::Reflected> light;
     for (const LampPhoton& photon : lamp_photons(surfaces, emission, meet_front(), objects_->ray_work())) {
       const Color& rho = of(photon.landed).reflectance;
-      light.push_back({photon.landed, photon.power * (rho.x + rho.y + rho.z)});
+      light.push_back({photon.landed, photon.power * sum_of_channels(rho)});
     }
     BrightPlaces::Use use{0.0, objects_->diameter()};
     for (const Surface& surface : surfaces) {
@@ -96,8 +96,6 @@ class PathTracer {
     return result.places_.empty() ? std::nullopt : std::optional{std::move(result)};
   }
 
-  // Largest reflectance of the scene.
-  [[nodiscard]] double brightest() const { return brightest_; }
   [[nodiscard]] std::uint32_t surface(std::uint32_t object, std::uint32_t sheet) const { return first_surface_[object] + sheet; }
   [[nodiscard]] const Material& material(std::uint32_t surface) const { return materials_[surface]; }
   [[nodiscard]] const Material& of(const raycast::ScenePoint& x) const { return materials_[surface(x.object, x.sheet)]; }
@@ -145,7 +143,7 @@ class PathTracer {
         count_emitters(x, lamp->direction, rays);
       }
       if (!first) {
-        const double carried = std::max({reflected.x, reflected.y, reflected.z});
+        const double carried = brightest(reflected);
         const double survival = std::min(1.0 - 1.0 / most_bounces, carried / std::max(0.1, 1.0 - brightest_));
         if (!(random.uniform() < survival)) { return result; }
         throughput /= survival;

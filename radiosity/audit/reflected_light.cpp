@@ -73,7 +73,7 @@ class FacePoints {
   };
   void add(std::uint32_t node, const Polygon& convex, double density) {
     for (std::size_t k = 1; k + 1 < convex.size(); ++k) {
-      const double area = 0.5 * glm::length(glm::cross(convex[k] - convex[0], convex[k + 1] - convex[0]));
+      const double area = triangle_area(convex[0], convex[k], convex[k + 1]);
       if (area > 0.0) { triangles_.push_back({node, convex[0], convex[k], convex[k + 1], total() + area * density}); }
     }
   }

@@ -43,7 +43,7 @@ HALFLIGHT_INLINE SurfaceErrorMeter::SurfaceErrorMeter(const DiscreteScene& scene
     const auto square = [&](const Color& shown) { return glm::dot(shown - emission, shown - emission); };
     for (std::uint32_t k = 1; k + 1 < face.corner_count; ++k) {
       const std::uint32_t a = face.first_corner;
-      const double area = 0.5 * glm::length(glm::cross(corner(a + k) - corner(a), corner(a + k + 1) - corner(a)));
+      const double area = triangle_area(corner(a), corner(a + k), corner(a + k + 1));
       // The corners count, too: they have the light of the leaves around them, and a dark leaf beside a lit one may be wrong.
       double light = 0.5 * square(face.radiosity), contrast = 0.0;
       for (const std::uint32_t c : {a, a + k, a + k + 1}) {

@@ -27,6 +27,7 @@
 #include <radiosity/hierarchy/surface.hpp>
 #include <radiosity/hierarchy/twins.hpp>
 #include <radiosity/scene/frame.hpp>
+#include <radiosity/scene/material.hpp>
 #include <radiosity/scene/scene.hpp>
 #include <radiosity/visibility/exposure.hpp>
 
@@ -169,9 +170,9 @@ HALFLIGHT_INLINE std::string warning_of_lost_light(const DiscreteScene& scene, c
     const double area = scene.exposure.area[i];
     if (!scene.hierarchy[i].leaf() || !(area > 0.0)) { continue; }
     const Color& emission = scene.emission[surface];
-    emitted += area * (emission.x + emission.y + emission.z);
+    emitted += area * sum_of_channels(emission);
     const Color rest = radiosity[i] - emission;
-    reflected += area * (rest.x + rest.y + rest.z);
+    reflected += area * sum_of_channels(rest);
     reflects = reflects || (is_black(emission) && !is_black(scene.reflectance[surface]));
     unlit += is_black(emission) ? area : 0.0;
   }

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <iterator>
 #include <limits>
 #include <new>
 #include <optional>
@@ -24,6 +23,7 @@
 #include <radiosity/bake/bake.hpp>
 #include <radiosity/bake/c_names.hpp>
 #include <radiosity/bake/lightmap.hpp>
+#include <radiosity/support/draw.hpp>
 #include <radiosity/support/number_text.hpp>
 
 struct halflight_job {
@@ -121,7 +121,7 @@ struct JobPolygons {
     for (std::size_t c = 0; c + 2 < indices.size(); c += 3) {
       if (std::max({indices[c], indices[c + 1], indices[c + 2]}) >= positions.size()) { continue; }
       const glm::dvec3& a = positions[indices[c]];
-      const double area = 0.5 * glm::length(glm::cross(positions[indices[c + 1]] - a, positions[indices[c + 2]] - a));
+      const double area = radiosity::triangle_area(a, positions[indices[c + 1]], positions[indices[c + 2]]);
       sum += std::isfinite(area) ? area : 0.0;
     }
     return sum;

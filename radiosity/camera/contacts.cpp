@@ -2,7 +2,6 @@
 #include <radiosity/camera/contacts.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 

@@ -31,8 +31,6 @@ class IndirectLight {
   // The irradiance gathered at this fragment itself.
   [[nodiscard]] FinalGather::Indirect gathered(const Fragment& fragment, const GatherRays& rays) const;
 
-  [[nodiscard]] std::size_t points() const { return points_.size(); }
-
  private:
   [[nodiscard]] IndirectPoint point_at(const Fragment& fragment, const GatherRays& rays) const;
 

@@ -63,7 +63,7 @@ struct Grid {
 
 // One convex piece of a triangle on the sample grid, with the index of its shading data.
 struct Piece {
-  std::array<Grid, 3> corner;  // clockwise on the screen, whose y points down: area() > 0
+  std::array<Grid, 3> corner;  // clockwise on the screen, whose y points down: twice_area() > 0
   std::uint32_t triangle = 0;
 };
 
@@ -102,12 +102,14 @@ class Projector {
     const auto index = static_cast<std::uint32_t>(out.triangles.size());
     for (std::size_t i = 1; i + 1 < polygon_.size(); ++i) {
       const Piece piece{{project(polygon_[0]), project(polygon_[i + 1]), project(polygon_[i])}, index};
-      if (area(piece.corner[0], piece.corner[1], piece.corner[2]) > 0) { out.pieces.push_back(piece); }
+      if (twice_area(piece.corner[0], piece.corner[1], piece.corner[2]) > 0) { out.pieces.push_back(piece); }
     }
     if (out.pieces.size() > before) { out.triangles.push_back(shading); }
   }
 
-  static std::int64_t area(const Grid& a, const Grid& b, const Grid& c) { return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x); }
+  static std::int64_t twice_area(const Grid& a, const Grid& b, const Grid& c) {
+    return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+  }
 
  private:
   [[nodiscard]] Grid project(const glm::dvec3& p) const {
@@ -235,7 +237,7 @@ HALFLIGHT_INLINE void Band::draw(const Drawing& drawing, const Piece& piece) {
     const Grid& a = c[i];
     const Grid& b = c[(i + 1) % 3];
     const bool top_left = (a.y == b.y && b.x > a.x) || b.y < a.y;
-    row[i] = Projector::area(a, b, start) - (top_left ? 0 : 1);
+    row[i] = Projector::twice_area(a, b, start) - (top_left ? 0 : 1);
     step_x[i] = -(b.y - a.y) * snap;
     step_y[i] = (b.x - a.x) * snap;
   }
@@ -312,7 +314,7 @@ HALFLIGHT_INLINE double automatic_exposure(const Mesh& mesh, const Scene& scene,
       if (index == brep::invalid_index) { continue; }
       const raster::Triangle& triangle = drawing.triangles[index];
       const Material& material = scene.materials[surfaces[triangle.surface].material];
-      emitted = std::max({emitted, material.emission.x, material.emission.y, material.emission.z});
+      emitted = std::max(emitted, brightest(material.emission));
       if (is_black(material.reflectance)) { continue; }
       const Color radiosity = raster::color_at(triangle, band.ray(x, y));
       const double value = luminance(radiosity - material.emission);

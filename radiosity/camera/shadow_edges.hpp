@@ -18,8 +18,6 @@ namespace radiosity {
 // things that leave more light than that were missed.
 inline constexpr double change_at_edge = 0.2;
 
-[[nodiscard]] inline double sum_of_channels(const Color& c) { return c.x + c.y + c.z; }
-
 // A place of a fragment, and where the ray to it crosses the pixel, whose sides are 1.
 struct PixelPlace {
   FinalGather::Place place;

@@ -52,7 +52,7 @@ struct ShiningTriangle {
       for (std::size_t i = 1; i + 1 < polygon.size(); ++i) {
         ShiningTriangle triangle{{polygon[0], polygon[i], polygon[i + 1]}, &surface, o, sheet};
         const auto& [a, b, c] = triangle.corner;
-        triangle.power = 0.5 * glm::length(glm::cross(b - a, c - a)) * (exitance.x + exitance.y + exitance.z);
+        triangle.power = triangle_area(a, b, c) * sum_of_channels(exitance);
         if (triangle.power > 0.0) { triangles.push_back(triangle); }
       }
     }

@@ -52,7 +52,7 @@ HALFLIGHT_INLINE std::vector<LampSample> lamp_samples(const Facets& facets, std:
   }
   std::stable_sort(triangles.begin(), triangles.end(), [](const Triangle& a, const Triangle& b) { return a.place < b.place; });
   for (const Triangle& t : triangles) {
-    total += 0.5 * glm::length(glm::cross(t.b - t.a, t.c - t.a));
+    total += triangle_area(t.a, t.b, t.c);
     until.push_back(total);
   }
   const Sobol4 sequence{seed, 0x6c616d70ull};

@@ -12,6 +12,7 @@
 #include <brep/inline.hpp>
 
 #include <radiosity/geometry/form_factor.hpp>
+#include <radiosity/support/draw.hpp>
 
 namespace radiosity {
 
@@ -27,7 +28,7 @@ HALFLIGHT_INLINE std::vector<std::array<glm::dvec3, 3>> compact_triangles(const 
     auto& [a, b, c] = pieces[k];
     const double ab = glm::length(b - a), bc = glm::length(c - b), ca = glm::length(a - c);
     const double longest = std::max({ab, bc, ca});
-    const double area = 0.5 * glm::length(glm::cross(b - a, c - a));
+    const double area = triangle_area(a, b, c);
     if (!(area > 0.0) || longest * longest <= 8.0 * area) {  // this ratio is 4 for an isosceles right triangle
       ++k;
       continue;

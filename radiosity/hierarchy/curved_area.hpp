@@ -15,6 +15,7 @@
 #include <raycast/transform.hpp>
 
 #include <radiosity/geometry/form_factor.hpp>
+#include <radiosity/support/draw.hpp>
 
 namespace radiosity {
 
@@ -22,9 +23,7 @@ namespace radiosity {
 // on the surface, extrapolated (Richardson 1911): the relative error is of fourth order in the angle by which the polygon bends. If
 // midpoints do not lie above the polygon, because a crease runs through it, the result is the polygon's own area.
 [[nodiscard]] inline double curved_area(const raycast::PlacedObject& object, std::uint32_t sheet, const Polygon& polygon) {
-  const auto area = [](const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
-    return 0.5 * glm::length(glm::cross(b - a, c - a));
-  };
+  const auto area = [](const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) { return triangle_area(a, b, c); };
   const auto middle = [&](const glm::dvec3& a, const glm::dvec3& b) { return object.vertex(sheet, 0.5 * (a + b)); };
   double chord = 0.0;
   double finer = 0.0;

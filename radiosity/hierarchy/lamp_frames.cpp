@@ -2,7 +2,6 @@
 #include <radiosity/hierarchy/lamp_frames.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <utility>

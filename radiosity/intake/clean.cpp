@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <iterator>
 #include <set>
 #include <span>
 #include <utility>
@@ -21,6 +20,8 @@
 
 #include <raycast/planar.hpp>
 #include <raycast/tolerances.hpp>
+
+#include <radiosity/support/draw.hpp>
 
 namespace radiosity::intake {
 namespace detail {
@@ -67,7 +68,7 @@ inline bool has_triangles(Working& mesh, const Face& face) {
 // edge to a hole, around it and back, cover it once.
 inline bool crosses_itself(std::span<const glm::dvec3> outline, std::span<const std::array<std::uint32_t, 3>> triangles) {
   double covered = 0.0;
-  for (const auto& [a, b, c] : triangles) { covered += 0.5 * glm::length(glm::cross(outline[b] - outline[a], outline[c] - outline[a])); }
+  for (const auto& [a, b, c] : triangles) { covered += triangle_area(outline[a], outline[b], outline[c]); }
   const double extent = brep::extent(outline);
   return covered > brep::area(outline) + raycast::tol_area * extent * extent;
 }

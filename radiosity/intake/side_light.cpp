@@ -74,7 +74,7 @@ HALFLIGHT_INLINE glm::dvec3 SideLight::point_of(std::uint32_t face, double u, do
     double at = u * area_[face];
     for (const std::array<std::uint32_t, 3>& t : triangles) {
       corner = t;
-      const double area = 0.5 * glm::length(glm::cross(p[t[1]] - p[t[0]], p[t[2]] - p[t[0]]));
+      const double area = triangle_area(p[t[0]], p[t[1]], p[t[2]]);
       u = area > 0.0 ? std::clamp(at / area, 0.0, 1.0) : u;
       at -= area;
       if (at < 0.0) { break; }

@@ -124,7 +124,7 @@ HALFLIGHT_INLINE DenseSolution shoot(const LeafExchange& exchange, const LeafMat
     double most = -1.0;
     double left = 0.0;
     for (std::size_t i = 0; i < n; ++i) {
-      const double power = exchange.area(i) * (unshot[i].x + unshot[i].y + unshot[i].z);
+      const double power = exchange.area(i) * sum_of_channels(unshot[i]);
       left += power;
       if (power > most) {
         most = power;

@@ -59,7 +59,7 @@ struct ListLamps {
       const Color& e = scene.emission[node.surface];
       if (is_black(e)) { continue; }
       area += scene.exposure.area[i];
-      power += scene.exposure.area[i] * (e.x + e.y + e.z);
+      power += scene.exposure.area[i] * sum_of_channels(e);
       leaves.push_back(i);
       up_to.push_back(power);
     }

@@ -60,9 +60,7 @@ inline constexpr double unhidden_photons = 12.0;
 // The area of the surface above a triangle: that of four triangles whose new corners lie on the surface, plus a third of the difference
 // to the flat triangle, because the error of a chord falls to a quarter.
 [[nodiscard]] HALFLIGHT_INLINE double true_area(const raycast::PlacedObject& object, std::uint32_t sheet, const ChordTriangle& triangle) {
-  const auto area = [](const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
-    return 0.5 * glm::length(glm::cross(b - a, c - a));
-  };
+  const auto area = [](const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) { return triangle_area(a, b, c); };
   const auto& [a, b, c] = triangle.position;
   const double flat = area(a, b, c);
   if (object.flat()) { return flat; }
@@ -92,7 +90,7 @@ HALFLIGHT_INLINE BrightSpots::BrightSpots(const Lookup& lookup, const DirectLigh
         spot.middle = (a + b + c) / 3.0;
         spot.normal = glm::cross(b - a, c - a);
         spot.area = detail::true_area(object, s, triangle);
-        spot.power = spot.area * (light.x + light.y + light.z);
+        spot.power = spot.area * sum_of_channels(light);
         const double length = glm::length(spot.normal);
         if (!(length > 0.0) || !(spot.area > 0.0)) { continue; }
         spot.normal /= length;

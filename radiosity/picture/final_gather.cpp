@@ -244,7 +244,7 @@ HALFLIGHT_INLINE double FinalGather::mend_near(Sum& sum, const Place& place, dou
                                                std::uint64_t key) const {
   Color near{0.0};
   for (const NearLight::Seen& seen : sum.near) { near += seen.light; }
-  const double share = (near.x + near.y + near.z) / all;
+  const double share = sum_of_channels(near) / all;
   if (!(share > detail::least_near)) { return 0.0; }
   const double most = effort.most_paths;
   const double wanted = std::min(most, most / detail::plain_paths * std::pow(share / effort.error, 2.0));

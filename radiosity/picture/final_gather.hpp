@@ -117,8 +117,8 @@ class FinalGather {
     std::vector<NearLight::Seen> near;      // hits of uniform rays where the solution is uncertain (near_light.hpp)
     void add(std::size_t p, const Color& more, double distance) {
       light += more;
-      part[p] += more.x + more.y + more.z;
-      of_light += (more.x + more.y + more.z) / distance;
+      part[p] += sum_of_channels(more);
+      of_light += sum_of_channels(more) / distance;
     }
   };
   // The light along a ray, and the expected number of aimed rays in its direction per uniform ray.

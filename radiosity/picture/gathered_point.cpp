@@ -74,13 +74,13 @@ struct PlaneFit {
   double left = 0.0, noise = 0.0;
   each([&](double own, double u, double v, const GatheredPoint& other) {
     const Color rest = other.gathered - plane.light - u * plane.by_u - v * plane.by_v;
-    left += own * (rest.x + rest.y + rest.z) * (rest.x + rest.y + rest.z);
+    left += own * sum_of_channels(rest) * sum_of_channels(rest);
     plane.least = glm::min(plane.least, other.gathered);
     plane.most = glm::max(plane.most, other.gathered);
     noise += own * other.variance;
   });
   plane.misfit = left > 0.0 ? left / noise : 0.0;
-  const double sum_of_mean = mean.x + mean.y + mean.z;
+  const double sum_of_mean = sum_of_channels(mean);
   plane.rest = left > 0.0 ? left / (w * sum_of_mean * sum_of_mean) : 0.0;
   return plane;
 }
@@ -120,7 +120,7 @@ HALFLIGHT_INLINE bool is_doubtful(const GatheredPoint& gathered, std::span<const
   const auto [s, t] = orthonormal(point.normal);
   point.s = s;
   point.t = t;
-  const double own = point.gathered.x + point.gathered.y + point.gathered.z;
+  const double own = sum_of_channels(point.gathered);
   std::vector<const GatheredPoint*> others;
   for (const GatheredPoint* other : near) {
     if (other != &gathered && point.weight(other->position, other->normal, other->object, point.widest) > 0.0) { others.push_back(other); }
@@ -132,12 +132,12 @@ HALFLIGHT_INLINE bool is_doubtful(const GatheredPoint& gathered, std::span<const
   for (const GatheredPoint* other : others) {
     const glm::dvec3 d = (other->position - point.position) / point.widest;
     const Color rest = other->gathered - plane.light - glm::dot(d, point.s) * plane.by_u - glm::dot(d, point.t) * plane.by_v;
-    left.push_back(std::abs(rest.x + rest.y + rest.z));
+    left.push_back(std::abs(sum_of_channels(rest)));
   }
   const auto middle = left.begin() + static_cast<std::ptrdiff_t>(left.size() / 2);
   std::nth_element(left.begin(), middle, left.end());
   constexpr double of_median = 1.4826;  // standard deviation over median, for normal residuals
-  const double off = own - (plane.light.x + plane.light.y + plane.light.z), mean = plane.mean.x + plane.mean.y + plane.mean.z;
+  const double off = own - sum_of_channels(plane.light), mean = sum_of_channels(plane.mean);
   const double noise = point.variance + std::pow(of_median * *middle, 2.0);
   return std::abs(off) > detail::seen_off * mean && off * off > detail::errors_off * detail::errors_off * noise;
 }

@@ -37,8 +37,6 @@ class IrradianceCache {
   // Irradiance near a place for which the cache was extended, W/m2.
   [[nodiscard]] std::optional<Color> at(const FinalGather::Place& place) const;
 
-  [[nodiscard]] std::size_t size() const { return points_.size(); }
-
  private:
   [[nodiscard]] bool covered(const FinalGather::Place& place) const;
   [[nodiscard]] GatheredPoint gather(const Wanted& wanted) const;

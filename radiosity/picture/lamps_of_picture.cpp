@@ -15,6 +15,7 @@
 
 #include <radiosity/direct/direct_light.hpp>
 #include <radiosity/refinement/lamp_choice.hpp>
+#include <radiosity/support/draw.hpp>
 
 namespace radiosity {
 
@@ -29,7 +30,7 @@ inline constexpr std::uint32_t most_faces = 4096;  // of a body whose light is s
   for (std::uint32_t s = 0; s < surfaces; ++s) {
     for (std::uint32_t k = 0; k < lookup.triangle_count(s); ++k) {
       const auto& [a, b, c] = lookup.triangle(s, k).position;
-      areas[s] += 0.5 * glm::length(glm::cross(b - a, c - a));
+      areas[s] += triangle_area(a, b, c);
     }
   }
   return areas;

@@ -131,7 +131,7 @@ HALFLIGHT_INLINE void Lookup::find_coarse() {
       raycast::Box box;
       for (std::size_t i = 0; i < 3; ++i) {
         const Corner &a = corners_[triangle.corner[i]], &b = corners_[triangle.corner[(i + 1) % 3]];
-        const double light = triangle.radiosity[i].x + triangle.radiosity[i].y + triangle.radiosity[i].z;
+        const double light = sum_of_channels(triangle.radiosity[i]);
         least = std::min(least, light);
         most = std::max(most, light);
         longest = std::max(longest, glm::length(b.position - a.position));

@@ -130,7 +130,7 @@ HALFLIGHT_INLINE MeshRefiner::Places MeshRefiner::places_of(const Face& face) co
   const std::size_t triangles = corners.size() - 2, on_each = std::max<std::size_t>(2, 4 / triangles);
   Random random{face.surface, face.face.index, static_cast<std::uint64_t>(surface.brep.data(face.face).level)};
   for (std::size_t k = 1; k <= triangles; ++k) {
-    const double area = 0.5 * glm::length(glm::cross(corners[k] - corners[0], corners[k + 1] - corners[0]));
+    const double area = triangle_area(corners[0], corners[k], corners[k + 1]);
     for (std::size_t i = 0; i < on_each; ++i) {
       const double u = (static_cast<double>(i) + random.uniform()) / static_cast<double>(on_each);
       const glm::dvec3 weight = triangle_weights(u, random.uniform());

@@ -46,7 +46,6 @@ class MeshRefiner {
   [[nodiscard]] double error() const;
   // The squared error at outlines, integrated over the picture; 0 without a camera. Does not require gather().
   [[nodiscard]] double outlines() const;
-  [[nodiscard]] std::uint64_t faces() const { return faces_; }  // number of exposed faces
   // Splits the faces with the largest errors, until the others together have at most half of the wanted error, or there are `most` faces.
   // Returns the number of faces that were split.
   std::size_t split(double wanted, std::uint64_t most);

@@ -53,7 +53,7 @@ namespace detail {
   const glm::dvec3 d = lamp.centre - at.position;
   if (!(glm::dot(d, at.normal) > -lamp.radius)) { return 0.0; }
   const double size = lamp.radius * lamp.radius;
-  return (lamp.exitance.x + lamp.exitance.y + lamp.exitance.z) * size / std::max(glm::dot(d, d), size);
+  return sum_of_channels(lamp.exitance) * size / std::max(glm::dot(d, d), size);
 }
 
 struct ChosenLamp {
@@ -238,13 +238,14 @@ HALFLIGHT_INLINE void NearLight::go_on(Paths& paths, std::span<PathNumbers> numb
 HALFLIGHT_INLINE NearLight::Sum NearLight::light(std::span<const Seen> seen, std::uint32_t paths, std::uint64_t key,
                                                  const BrightSpots::From* spots) const {
   constexpr int most_reflections = 3;
-  const auto channels = [](const Color& c) { return c.x + c.y + c.z; };
   double all = 0.0;
-  for (const Seen& place : seen) { all += channels(place.light); }
+  for (const Seen& place : seen) { all += sum_of_channels(place.light); }
   if (!(all > 0.0)) { return {}; }
   // Half of the probability follows the light shown by the mesh; the other half is uniform, because a place that the mesh shows
   // dark may be bright.
-  const auto probability = [&](const Seen& place) { return 0.5 * channels(place.light) / all + 0.5 / static_cast<double>(seen.size()); };
+  const auto probability = [&](const Seen& place) {
+    return 0.5 * sum_of_channels(place.light) / all + 0.5 / static_cast<double>(seen.size());
+  };
   const Sobol4 first{3, key}, second{4, key};
   const double start = Random{5, key}.uniform();
   Color sum{0.0};
@@ -277,10 +278,10 @@ HALFLIGHT_INLINE NearLight::Sum NearLight::light(std::span<const Seen> seen, std
     for (unsigned k = 0; k < paths_at_once; ++k) {
       const Color part = next.light[k] / chosen[k];
       sum += part;
-      squares += channels(part) * channels(part);
+      squares += sum_of_channels(part) * sum_of_channels(part);
     }
   }
-  const double n = paths, mean = channels(sum) / n;
+  const double n = paths, mean = sum_of_channels(sum) / n;
   return {sum / n, std::max(0.0, squares / n - mean * mean) / n};
 }
 

@@ -26,8 +26,6 @@ class SpotPhotons {
   // `reach`: photons farther away than this from a query are ignored.
   SpotPhotons(std::vector<Photon> photons, double reach);
 
-  [[nodiscard]] bool empty() const { return photons_.empty(); }
-
   // The nearest photons around a point, at most `most_found`, that landed on surfaces of about the same orientation (of any, if `normal`
   // is null); and the radius of the disk that contains them.
   static constexpr std::size_t most_found = 48;

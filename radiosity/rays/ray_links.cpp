@@ -167,10 +167,10 @@ HALFLIGHT_INLINE std::vector<std::uint32_t> ray_counts(const DiscreteScene& scen
   constexpr double least_each = 32.0, most_by_least = 0x1p20;
   const double of_many = std::clamp(most_by_least / static_cast<double>(casters.size()), 0.25 * least_each, least_each);
   const double least = scene.control.viewpoint ? of_many : least_each;
-  // With a camera, slivers in view may have hundreds of times the weight of others. The total is limited to the number that equal weights
-  // would give; beyond `few` to the geometric mean of both, because a picture averages over what its points see, the more the more nodes.
-  // Without one, weights are those of casters close to others, which all are where things touch everywhere: not more than four times as
-  // many as by equal weights.
+  // Some weights are hundreds of times larger than others, so the total is limited. With a camera, slivers in view have them: the limit is
+  // the number that equal weights would give, or, beyond `few`, the geometric mean of both, because a picture averages over what its points
+  // see, the more the more nodes. Without a camera, casters close to others have them, which all are where things touch everywhere: the
+  // limit is four times the number by equal weights.
   constexpr double few = 0x1p22, times_even = 4.0;
   const double wished = mean * weighted * weighted / all, even = mean * static_cast<double>(casters.size());
   const double most = std::max(few, scene.control.viewpoint ? std::sqrt(few * even) : times_even * even);

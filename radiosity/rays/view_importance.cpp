@@ -158,9 +158,10 @@ class ViewedCasters {
     return shares;
   }
 
-  // By caster: the share of the picture that the light of a unit of its area makes. After one reflection, the rays of casters seen by the
-  // camera tell which casters light them. After any number of reflections light arrives everywhere in the picture, where errors of one
-  // input face that are alike add up, so that their square counts by the share of a caster times that of its face. The larger of both.
+  // By caster: the share of the picture that comes from light sent by a unit of its area. It is the larger of two. Light reflected once:
+  // the rays of casters that the camera sees tell which casters light them. Light reflected any number of times arrives everywhere in the
+  // picture; there, errors that all casters of an input face have in common add up, so their square counts by the share of a caster times
+  // that of its face (errors_alike).
   [[nodiscard]] std::vector<double> sent_shares(const std::vector<double>& seen) const {
     const std::vector<double> once = sent_once(seen);
     std::vector<double> all = once, last = once;

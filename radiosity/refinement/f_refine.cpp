@@ -126,9 +126,8 @@ struct FRefinement {
   return split.leaf() && small ? Decision::link : answer;
 }
 
-// Is this a patch that reflects nothing, larger than all that reflects? Two of them are linked as they are, for nothing of what they
-// exchange is seen: the sides of a black sky hundreds of times as wide as what it contains would otherwise be split for each other's sake
-// down to the smallest patch of that.
+// Is this a patch that reflects nothing and is larger than all that reflects, such as a side of a black sky? Two of them are linked without
+// splitting, because nothing of the light between them is seen; otherwise they would be split down to the smallest patches.
 [[nodiscard]] HALFLIGHT_INLINE bool of_black_sky(const FRefinement& state, std::uint32_t i) {
   const Node& node = state.scene.hierarchy[i];
   return !node.is_cluster() && node.area > state.light.scene_area() && is_black(state.scene.reflectance[node.surface]);
@@ -219,8 +218,9 @@ HALFLIGHT_INLINE void tell(const FRefinement& state, const std::vector<Decision>
   return true;
 }
 
-// Is this link asked about again? It is if its small end was split just now for another lamp, or another face of the same one: where the
-// light of one face rises as that of another falls, resolving only one of them would make the sum worse.
+// Must the oracle be asked again about this link? Yes, if its small end has just been split for another lamp or for another face of the
+// same one. The light of one face rises where that of the next falls; if only one of them were resolved, their sum would become less
+// accurate.
 [[nodiscard]] HALFLIGHT_INLINE bool asked_again(const FRefinement& state, const NodePair& pair, Decision decision) {
   const Hierarchy& nodes = state.scene.hierarchy;
   const auto split_now = [&](std::uint32_t i) {

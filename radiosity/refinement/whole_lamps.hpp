@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Lamps of many faces, such as a bulb in its shade, and what lies too close for a link with the whole of one. Where the light of one face
-// rises that of the next falls, so that their sum varies far less than each. F-refinement therefore asks the light oracle about the whole
-// lamp before the lamp is opened, and does not ask again about its parts.
+// Lamps of many faces, such as a bulb in its shade, and patches too close to them for a link with the whole lamp. Where the light of one
+// face rises, that of the next falls, so that their sum varies far less than each. F-refinement therefore asks the light oracle about the
+// whole lamp first. If the lamp need not be resolved, its parts are not asked about again.
 
 #include <cstdint>
 #include <unordered_set>

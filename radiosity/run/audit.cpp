@@ -103,8 +103,8 @@ inline constexpr std::uint64_t enough_points = 250;  // of an audit; fewer may m
 }
 
 // Compares the errors found by path tracing with those estimated from the links. The estimate is for the light of the links, so it is not
-// compared with the error of a mesh in gathered light. Where nobody has asked for an accuracy the estimate is all that a run could have
-// reached, so a run that is refuted has not converged.
+// compared with the error of a mesh in gathered light. If no accuracy was asked for, the estimate is the only claim of the run; so if it is
+// refuted, the run has not converged.
 HALFLIGHT_INLINE void compare_with_estimate(Run& run) {
   Audit& audit = run.solution.audit;
   std::string found;

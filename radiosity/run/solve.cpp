@@ -2,7 +2,6 @@
 
 // Stage: closes the row sums and solves the linear system.
 
-#include <algorithm>
 #include <cstddef>
 #include <optional>
 #include <utility>

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include <glm/common.hpp>
-#include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 
 #include <brep/inline.hpp>

@@ -34,7 +34,7 @@ struct LightUnit {
   for (const SceneObject& object : scene.objects) {
     for (const std::uint32_t m : object.material) {
       const Color& e = scene.materials[m].emission;
-      strongest = std::max({strongest, e.x, e.y, e.z});
+      strongest = std::max(strongest, brightest(e));
     }
   }
   return strongest > 0.0 ? LightUnit{std::ilogb(strongest)} : LightUnit{};

@@ -45,6 +45,7 @@ struct Material {
 [[nodiscard]] inline bool is_grey(const Color& c) { return c.x == c.y && c.y == c.z; }
 
 [[nodiscard]] inline double brightest(const Color& c) { return std::max({c.x, c.y, c.z}); }
+[[nodiscard]] inline double sum_of_channels(const Color& c) { return c.x + c.y + c.z; }
 [[nodiscard]] inline bool is_black(const Color& c) { return c.x == 0.0 && c.y == 0.0 && c.z == 0.0; }
 
 }  // namespace radiosity

@@ -256,7 +256,7 @@ HALFLIGHT_INLINE std::vector<double> Transport::left_by_lamps() {
   return left;
 }
 
-HALFLIGHT_INLINE double Transport::amiss(const std::vector<double>& rows) const {
+HALFLIGHT_INLINE double Transport::row_sum_deviation(const std::vector<double>& rows) const {
   std::vector<double> power(rows.size(), 0.0), area(rows.size(), 0.0);
   double total = 0.0;
   for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -274,7 +274,7 @@ HALFLIGHT_INLINE double Transport::amiss(const std::vector<double>& rows) const 
 }
 
 HALFLIGHT_INLINE std::optional<double> Transport::close(double limit, double tolerance) {
-  const double rms = amiss(row_sums());
+  const double rms = row_sum_deviation(row_sums());
   if (!(rms <= limit)) { return std::nullopt; }
   if (!lamps_.empty() && sampled_ == 0 && parts_.size() > 1) {
     scale_lamps();

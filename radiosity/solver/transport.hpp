@@ -163,7 +163,7 @@ class Transport {
   // Scales the links of a part to these row sums, as far as the limits allow.
   void scale(std::size_t part, const std::vector<double>& rows, const ScaleLimits& limits);
   // The area-weighted RMS deviation of the row sums of closed leaves from 1, without leaves that see nothing.
-  [[nodiscard]] double amiss(const std::vector<double>& rows) const;
+  [[nodiscard]] double row_sum_deviation(const std::vector<double>& rows) const;
 
   const Hierarchy* hierarchy_;
   const Exposure* exposure_;

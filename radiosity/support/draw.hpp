@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <span>
 
+#include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
 namespace radiosity {
@@ -23,6 +24,10 @@ template <class Elements>
 [[nodiscard]] const auto& drawn(const Elements& elements, double at) {
   const auto exceeds = [](double value, const auto& element) { return value < element.until; };
   return *std::upper_bound(elements.begin(), elements.end() - 1, at, exceeds);
+}
+
+[[nodiscard]] inline double triangle_area(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+  return 0.5 * glm::length(glm::cross(b - a, c - a));
 }
 
 // The weights of a triangle's corners (barycentric coordinates) at a point that is uniform by area if u and v are uniform in [0, 1).

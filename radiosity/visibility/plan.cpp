@@ -97,7 +97,7 @@ HALFLIGHT_INLINE void look_at_materials(const Scene& scene, Plan& plan) {
 HALFLIGHT_INLINE void look_at_losses(const Scene& scene, Plan& plan) {
   for (const Material& material : scene.materials) {
     const Color& rho = material.reflectance;
-    plan.traceable = plan.traceable && (!plan.closed || std::max({rho.x, rho.y, rho.z}) <= 1.0 - 1.0 / most_bounces);
+    plan.traceable = plan.traceable && (!plan.closed || brightest(rho) <= 1.0 - 1.0 / most_bounces);
   }
   if (!plan.traceable) {
     plan.left_out.push_back(

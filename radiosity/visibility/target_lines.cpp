@@ -2,7 +2,6 @@
 #include <radiosity/visibility/target_lines.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>

@@ -111,9 +111,9 @@ struct WeighedSegments {
 [[nodiscard]] inline std::uint32_t deciding_rounds(std::uint32_t rounds) { return std::max(1u, rounds / 4); }
 
 // Casts rounds of 16 segments. If all segments of the deciding rounds agree, these are enough; otherwise `rounds` rounds are cast
-// (share_of_mixed). The mean over seeds is the true fraction, but for that the segments of a round are stratified, not independent: it was
-// found off by up to 25 % of what is less, the visible or the hidden share. The numbers drawn depend on `random` alone. `list`: that of
-// the pair. `seen`, if given, receives the segments.
+// (share_of_mixed). The mean over seeds is the true fraction up to a bias, because the segments of a round are stratified and not
+// independent; the bias found was at most 25 % of the visible or the hidden share, whichever is smaller. The numbers drawn depend on
+// `random` alone. `list`: that of the pair. `seen`, if given, receives the segments.
 [[nodiscard]] VisibilityEstimate visibility(const SceneView& scene, const raycast::OccluderList& list, const PatchPair& pair,
                                             std::uint32_t rounds, Random random, std::vector<CastSegment>* seen = nullptr);
 

@@ -68,7 +68,6 @@ class CsgTree {
   [[nodiscard]] const std::vector<Leaf>& leaves() const { return leaves_; }
   [[nodiscard]] const std::vector<Node>& nodes() const { return nodes_; }  // the root comes first, nodes before their parts
   [[nodiscard]] const Box& bounds() const { return bounds_; }              // empty if the bounds of the leaves leave no room for the solid
-  [[nodiscard]] double film() const { return film_; }                      // a length
 
   [[nodiscard]] std::uint32_t sheet_count() const { return static_cast<std::uint32_t>(leaf_of_sheet_.size()); }
   [[nodiscard]] std::string_view sheet_name(std::uint32_t sheet) const { return names_[sheet]; }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <raycast/objects/cylinder.hpp>
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>

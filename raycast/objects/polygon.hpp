@@ -37,8 +37,6 @@ class Polygon final : public Object {
     return std::shared_ptr<const Polygon>(new Polygon(std::move(corners)));
   }
 
-  [[nodiscard]] const Plane& plane() const { return plane_; }
-
   [[nodiscard]] Box bounds() const override { return box_; }
   [[nodiscard]] bool convex() const override { return convex_; }
   [[nodiscard]] bool flat() const override { return true; }

@@ -149,7 +149,7 @@ TEST_CASE("study: a run that was cut off stands in the table, marked, and is cre
   CHECK(most_accurate(scene.methods[2], scene.reference) != nullptr);
   best.cut_off = "stopped after 1 s of CPU time";
   CHECK_FALSE(on_front(scene).contains(&best));
-  for (const double target : targets(scene)) { CHECK(cheapest_within(scene.methods[2], scene.reference, target, Cost::cpu_time) != &best); }
+  for (const double target : targets(scene)) { CHECK(cheapest_within(scene.methods[2], scene.reference, target) != &best); }
   CHECK(most_accurate(scene.methods[2], scene.reference) != &best);
   for (const CostPoint& point : points_of(scene.methods[2], scene.reference, Cost::cpu_time)) { CHECK(point.cost != 1e-6); }
   bool marked = false;
