@@ -91,7 +91,7 @@ HALFLIGHT_INLINE bool LitRegion::take_bodies(Reach& reach, const raycast::PatchS
       all = false;
       continue;
     }
-    const auto missed = [&](const auto& shape) { return !shaft.empty() && shaft[0].misses(shape); };
+    const auto missed = [&](const auto& part) { return !shaft.empty() && shaft[0].misses(part); };
     if (missed(body.bounds)) { continue; }
     if (body.convex && body.closed && !lamp.behind[o]) {
       reach.outlines.push_back(outline_of(body));
