@@ -23,15 +23,14 @@ namespace radiosity {
 // on the surface, extrapolated (Richardson 1911): the relative error is of fourth order in the angle by which the polygon bends. If
 // midpoints do not lie above the polygon, because a crease runs through it, the result is the polygon's own area.
 [[nodiscard]] inline double curved_area(const raycast::PlacedObject& object, std::uint32_t sheet, const Polygon& polygon) {
-  const auto area = [](const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) { return triangle_area(a, b, c); };
   const auto middle = [&](const glm::dvec3& a, const glm::dvec3& b) { return object.vertex(sheet, 0.5 * (a + b)); };
   double chord = 0.0;
   double finer = 0.0;
   for (std::size_t i = 1; i + 1 < polygon.size(); ++i) {
     const glm::dvec3 &a = polygon[0], &b = polygon[i], &c = polygon[i + 1];
     const glm::dvec3 ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
-    chord += area(a, b, c);
-    finer += area(a, ab, ca) + area(ab, b, bc) + area(ca, bc, c) + area(ab, bc, ca);
+    chord += triangle_area(a, b, c);
+    finer += triangle_area(a, ab, ca) + triangle_area(ab, b, bc) + triangle_area(ca, bc, c) + triangle_area(ab, bc, ca);
   }
   const double limit = finer + (finer - chord) / 3.0;
   return limit >= chord && limit <= 1.5 * chord ? limit : chord;

@@ -60,13 +60,12 @@ inline constexpr double unhidden_photons = 12.0;
 // The area of the surface above a triangle: that of four triangles whose new corners lie on the surface, plus a third of the difference
 // to the flat triangle, because the error of a chord falls to a quarter.
 [[nodiscard]] HALFLIGHT_INLINE double true_area(const raycast::PlacedObject& object, std::uint32_t sheet, const ChordTriangle& triangle) {
-  const auto area = [](const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) { return triangle_area(a, b, c); };
   const auto& [a, b, c] = triangle.position;
-  const double flat = area(a, b, c);
+  const double flat = triangle_area(a, b, c);
   if (object.flat()) { return flat; }
   const auto middle = [&](const glm::dvec3& p, const glm::dvec3& q) { return object.project(sheet, 0.5 * (p + q)).position; };
   const glm::dvec3 ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
-  const double finer = area(a, ab, ca) + area(b, bc, ab) + area(c, ca, bc) + area(ab, bc, ca);
+  const double finer = triangle_area(a, ab, ca) + triangle_area(b, bc, ab) + triangle_area(c, ca, bc) + triangle_area(ab, bc, ca);
   return finer + (finer - flat) / 3.0;
 }
 
