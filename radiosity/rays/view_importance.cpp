@@ -44,7 +44,7 @@ class ViewedCasters {
     std::vector<double> seen = seen_shares(from);
     const double in_view = sum_over_area(seen);
     if (in_view > 0.0) {
-      for (double& share : seen) { share /= in_view; }
+      for (double& of_caster : seen) { of_caster /= in_view; }
     }
     reflect(seen);
     ViewImportance result;
