@@ -13,6 +13,7 @@
 
 #include <raycast/objects/box.hpp>
 #include <raycast/objects/polygon.hpp>
+#include <raycast/scene.hpp>
 #include <raycast/transform.hpp>
 
 #include <radiosity/camera/view.hpp>
@@ -20,6 +21,7 @@
 #include <radiosity/scene/scene.hpp>
 
 #include "apps/intake/open_rooms.hpp"
+#include "apps/intake/room_lamp.hpp"
 #include "apps/text.hpp"
 #include "apps/words.hpp"
 
@@ -145,10 +147,10 @@ std::vector<raycast::Box> AddedLight::rooms_of_cameras() const {
 }
 
 bool AddedLight::add_room_lamps(const std::vector<raycast::Box>& rooms) {
-  const LightViews views(file_.scene);
+  const raycast::Scene objects(radiosity::placed_objects(file_.scene));
   std::vector<std::shared_ptr<const raycast::Object>> lamps;
   for (std::size_t i = 0; i < std::min(most_lamps, rooms.size()); ++i) {
-    if (auto lamp = views.ceiling_lamp(rooms[i])) { lamps.push_back(std::move(lamp)); }
+    if (auto lamp = room_lamp(objects, rooms[i])) { lamps.push_back(std::move(lamp)); }
   }
   if (lamps.empty()) { return false; }
   const auto material = static_cast<std::uint32_t>(file_.scene.materials.size());

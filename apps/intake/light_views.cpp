@@ -11,10 +11,7 @@
 #include <utility>
 
 #include <glm/geometric.hpp>
-#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
-
-#include <raycast/objects/polygon.hpp>
 
 #include <radiosity/audit/seen_light.hpp>
 #include <radiosity/scene/bounds.hpp>
@@ -23,11 +20,6 @@
 
 namespace apps {
 namespace {
-
-struct HangingPlace {
-  glm::dvec3 point{0.0};
-  double room = 0.0;  // smallest distance to anything around and below it
-};
 
 constexpr std::uint32_t reflections = 5;  // that light has had which a picture will show
 
@@ -283,49 +275,6 @@ std::optional<LightViews::Chosen> LightViews::inside() const {
     if (candidate.met >= as_closed * closed && (best == nullptr || candidate.view.reach > best->view.reach)) { best = &candidate; }
   }
   return best != nullptr && most > 0.0 ? std::optional{best->view} : std::nullopt;
-}
-
-std::shared_ptr<const raycast::Object> LightViews::ceiling_lamp(const raycast::Box& box) const {
-  constexpr int steps = 9;                // odd, so that the middle of the room is among the positions
-  std::vector<HangingPlace> places, low;  // low: in the lower half of the room, as under a table
-  // As free_way(); where the room is open, up to its bounds.
-  const auto free_in_room = [&](const glm::dvec3& from, const glm::dvec3& direction) {
-    if (objects_.closest({from, direction})) { return free_way(from, direction); }
-    return std::max(glm::dot(direction, box.lo - from), glm::dot(direction, box.hi - from));
-  };
-  for (int i = 0; i < steps * steps * steps; ++i) {
-    const glm::dvec3 share{(i % steps + 0.5) / steps, (i / steps % steps + 0.5) / steps, (i / steps / steps + 0.5) / steps};
-    const glm::dvec3 point = box.lo + share * box.size();
-    const double up = free_way(point, {0, 0, 1});
-    if (!(up > 0.0)) { continue; }
-    const glm::dvec3 under = point + glm::dvec3(0, 0, 0.95 * up);
-    if (objects_.covered(under, {0, 0, -1}, raycast::no_object)) { continue; }  // inside an object
-    double room_here = free_in_room(under, {0, 0, -1});
-    for (const glm::dvec3& side : {glm::dvec3(1, 0, 0), glm::dvec3(-1, 0, 0), glm::dvec3(0, 1, 0), glm::dvec3(0, -1, 0)}) {
-      room_here = std::min(room_here, free_in_room(under, side));
-    }
-    if (room_here > 0.0) { (under.z > box.centre().z ? places : low).push_back({under, room_here}); }
-  }
-  if (places.empty()) { places.swap(low); }
-  if (places.empty()) { return nullptr; }
-  const double most = std::ranges::max(places, {}, &HangingPlace::room).room;
-  constexpr double gap = 0.05;  // half as wide as this part of its height, the place is a gap between things, not a room
-  if (most < gap * box.size().z) { return nullptr; }
-  // In a corridor there is equally much air everywhere; then the place nearest to the middle lights most of it.
-  constexpr double as_good = 0.9;
-  const HangingPlace* best = nullptr;
-  const auto off_middle = [&](const HangingPlace& p) { return glm::length(glm::dvec2(p.point) - glm::dvec2(box.centre())); };
-  for (const HangingPlace& p : places) {
-    if (p.room < as_good * most) { continue; }
-    const double nearer = best != nullptr ? off_middle(*best) - off_middle(p) : HUGE_VAL;
-    const double equal = 1e-9 * box.diameter();
-    if (nearer > equal || (nearer >= -equal && p.room > best->room)) { best = &p; }
-  }
-  std::vector<glm::dvec3> corners;
-  for (const glm::dvec3 corner : {glm::dvec3(-1, -1, 0), glm::dvec3(-1, 1, 0), glm::dvec3(1, 1, 0), glm::dvec3(1, -1, 0)}) {
-    corners.push_back(best->point + 0.25 * best->room * corner);
-  }
-  return raycast::Polygon::make(std::move(corners)).object;
 }
 
 }  // namespace apps

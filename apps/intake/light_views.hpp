@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Determines how much of a model's light cameras see; finds a camera inside if the automatic one sees almost none of it, as for
-// a house with lamps in its rooms; and places lamps in rooms without any.
+// Determines how much of a model's light cameras see, and finds a camera inside if the automatic one sees almost none of it, as for
+// a house with lamps in its rooms.
 //
 // A camera can be judged by what lamps shine on directly, or by what its picture will show as more than black, in light reflected by
 // other surfaces, too: a room whose lamp shines at the ceiling is bright all over. The exposure is chosen by what is brightest in the
@@ -11,7 +11,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <set>
 #include <span>
@@ -19,7 +18,6 @@
 #include <vector>
 
 #include <raycast/box.hpp>
-#include <raycast/object.hpp>
 #include <raycast/scene.hpp>
 
 #include <radiosity/audit/seen_light.hpp>
@@ -84,10 +82,6 @@ class LightViews {
   // The light of what is seen around lamps: the median of the view from inside, or by which most light is reflected (SeenLight::usual),
   // whichever is less, because that view might be one into a lampshade. 0: not known.
   [[nodiscard]] double usual_light(const std::optional<Chosen>& inside) const;
-
-  // A lamp for a room without light: a square close below the ceiling (z up) of the room within these bounds, facing down, where there is
-  // most air around and below it, in the upper half of the room if there is a place. Null if no place was found, or only narrow gaps.
-  [[nodiscard]] std::shared_ptr<const raycast::Object> ceiling_lamp(const raycast::Box& room) const;
 
  private:
   // What the rays of a picture meet: the shares of them that meet a front first, and a front after any number of backs, and these points.

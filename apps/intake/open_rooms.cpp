@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <map>
 #include <numbers>
 #include <utility>
 #include <vector>
@@ -51,7 +52,10 @@ OpenRooms::Around OpenRooms::look_around(const glm::dvec3& eye) const {
     std::uint32_t object, sheet;
     double z;  // of the direction
   };
+  const double thin = 1e-6 * objects_.diameter();
   Around around;
+  Surfaces skins;  // behind which there is air
+  std::map<std::uint32_t, int> directions_of;
   std::vector<Back> backs;
   for (int i = 0; i < directions; ++i) {
     const double z = 1.0 - 2.0 * (i + 0.5) / directions, aside = std::sqrt(1.0 - z * z), angle = golden_angle * i;
@@ -62,12 +66,18 @@ OpenRooms::Around OpenRooms::look_around(const glm::dvec3& eye) const {
       continue;
     }
     around.bounds.extend(eye + hit->t * direction);
-    around.surfaces.emplace(hit->object, hit->sheet);
+    ++directions_of[hit->object];
+    const auto behind = objects_.closest({eye + (hit->t + thin) * direction, direction});
+    (behind && !behind->front ? around.surfaces : skins).emplace(hit->object, hit->sheet);
     if (hit->front) {
       around.shown += 1.0 / directions;
     } else if (z > 0.0 && !objects_.object(hit->object).solid()) {
       backs.push_back({hit->object, hit->sheet, z});
     }
+  }
+  const auto widest = std::ranges::max_element(directions_of, {}, [](const auto& object) { return object.second; });
+  for (const auto& [object, sheet] : skins) {
+    if (object != widest->first) { around.surfaces.emplace(object, sheet); }
   }
   std::set<std::uint32_t> roofs;
   for (const Back& back : backs) {

@@ -31,7 +31,8 @@ class OpenRooms {
     raycast::Box bounds;
   };
   // A room that nobody sees from outside: from a place in it, at least three times as many surfaces are seen as from any side outside,
-  // nearly all of them from the front, but for a roof. A box with furniture is one; a house that has more to show outside is not.
+  // nearly all of them from the front, but for a roof. A box with furniture is one; a house that has more to show outside is not, nor is a
+  // hollow body of whose skin one sees more from within than from any side.
   [[nodiscard]] std::optional<Hidden> hidden() const;
 
   // The bounds of rooms whose walls are given from inside alone, if most of what the automatic view shows is seen through the backs of
@@ -44,6 +45,7 @@ class OpenRooms {
 
  private:
   // What is seen in many directions: its bounds, and the shares of directions that meet nothing, and fronts or the backs of a roof.
+  // `surfaces`: without those of the object around the eye that have no thickness, such as the skin of a hollow body.
   struct Around {
     raycast::Box bounds;
     double open = 0.0, shown = 0.0;

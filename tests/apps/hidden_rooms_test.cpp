@@ -172,6 +172,45 @@ TEST_CASE("a vessel of many small faces is no furnished room") {
   }
 }
 
+// As programs write heads and bottles: a skin of many small faces that may be seen from either side, open below, here on a wide square of ground.
+TEST_CASE("a hollow body whose faces may be seen from either side is no furnished room") {
+  const unsigned seed = test::seed();
+  INFO("seed " << seed);
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  for (int round = 0; round < 8; ++round) {
+    const double scale = std::exp(8.0 * unit(random) - 4.0), bumps = 0.1 * unit(random), phase = 6.0 * unit(random);
+    constexpr std::uint32_t around = 50, along = 30;
+    apps::Model model;
+    model.groups = {"head"};
+    model.materials = {{"skin", radiosity::Color(0.5)}};
+    model.materials[0].two_sided = true;
+    for (std::uint32_t i = 0; i <= along; ++i) {
+      for (std::uint32_t k = 0; k < around; ++k) {
+        const double down = std::numbers::pi * i / along, angle = 2.0 * std::numbers::pi * k / around;
+        const double radius = scale * (1.0 + bumps * std::sin(5.0 * down + phase) * std::sin(3.0 * angle));
+        model.positions.push_back(radius * glm::dvec3(std::sin(down) * std::cos(angle), std::sin(down) * std::sin(angle), std::cos(down)));
+      }
+    }
+    for (std::uint32_t i = 0; i + 5 < along; ++i) {
+      for (std::uint32_t k = 0; k < around; ++k) {
+        const std::uint32_t a = i * around + k, b = i * around + (k + 1) % around;
+        model.polygon(std::array{a, a + around, b + around, b}, 0, 0);
+      }
+    }
+    const auto first = static_cast<std::uint32_t>(model.positions.size());
+    for (const auto& [x, y] : {std::pair{-16, -16}, {16, -16}, {16, 16}, {-16, 16}}) {
+      model.positions.push_back(scale * glm::dvec3(x, y, -0.8));
+    }
+    model.polygon(std::array{first, first + 1, first + 2, first + 3}, 0, 0);
+    std::vector<std::string> faults;
+    const auto file = apps::to_scene(std::move(model), apps::UpAxis::z, {}, faults);
+    REQUIRE(file);
+    CAPTURE(round, scale, bumps);
+    CHECK(models::noted(file->notes, "put into a studio"));
+  }
+}
+
 // Of the walls the viewer sees the insides, through the backs of those before them; the light of a studio would not pass.
 TEST_CASE("a room whose walls are given from inside alone is lit inside, though it has a doorway") {
   const unsigned seed = test::seed();
