@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -162,8 +163,32 @@ HALFLIGHT_INLINE Component* Shells::room_of_thing(const Component& thing) {
   return best;
 }
 
+// By decreasing area, and by place if that is equal: not by the order in the file.
+HALFLIGHT_INLINE std::vector<Shells::Lamp> Shells::lamps() {
+  constexpr std::size_t most = 64;
+  const auto larger = [](const auto& a, const auto& b) {
+    return std::tie(b.area, a.middle.x, a.middle.y, a.middle.z) < std::tie(a.area, b.middle.x, b.middle.y, b.middle.z);
+  };
+  std::vector<Lamp> lamps;
+  for (Component& component : components_) {
+    Lamp lamp{&component, component.box.centre(), 0.0, {}};
+    for (const std::uint32_t f : component.faces) {
+      if (is_black(materials_[mesh_.faces[f].material].emission)) { continue; }
+      const std::span<const glm::dvec3> outline = mesh_.outline(mesh_.faces[f]);
+      lamp.bright.push_back({f, brep::centroid(outline), brep::area(outline)});
+      lamp.area += lamp.bright.back().area;
+    }
+    if (lamp.bright.empty()) { continue; }
+    std::sort(lamp.bright.begin(), lamp.bright.end(), larger);
+    lamps.push_back(std::move(lamp));
+  }
+  std::sort(lamps.begin(), lamps.end(), larger);
+  lamps.resize(std::min(lamps.size(), most));
+  return lamps;
+}
+
 HALFLIGHT_INLINE std::vector<Component*> Shells::find_rooms() {
-  constexpr std::size_t most_lamps = 64, most_points = 16;
+  constexpr std::size_t most_points = 64;  // of a lamp
   std::vector<Component*> rooms;
   for (const glm::dvec3& eye : options_.eyes) {
     const Place place{eye, eye};
@@ -184,21 +209,16 @@ HALFLIGHT_INLINE std::vector<Component*> Shells::find_rooms() {
   const auto seen_from_inside = [&](const Component* shell) {
     return shell != nullptr && std::find(known.begin(), known.end(), shell) != known.end();
   };
-  std::size_t lamps = 0;
-  for (Component& component : components_) {
+  for (const Lamp& lamp : lamps()) {
+    const Component& component = *lamp.component;
     std::vector<Place> places, corners;
-    std::vector<std::uint32_t> bright;
-    for (const std::uint32_t f : component.faces) {
-      if (!is_black(materials_[mesh_.faces[f].material].emission)) { bright.push_back(f); }
-    }
-    for (std::size_t i = 0; i < std::min(most_points, bright.size()); ++i) {
-      const std::uint32_t f = bright[i * bright.size() / std::min(most_points, bright.size())];
+    for (std::size_t i = 0; i < std::min(most_points, lamp.bright.size()); ++i) {
+      const std::uint32_t f = lamp.bright[i * lamp.bright.size() / std::min(most_points, lamp.bright.size())].face;
       const std::span<const glm::dvec3> outline = mesh_.outline(mesh_.faces[f]);
       const glm::dvec3 middle = brep::centroid(outline), off = 4.0 * mesh_.tolerance * glm::normalize(brep::vector_area(outline));
       places.push_back({middle + off, middle - off});
       for (const glm::dvec3& p : outline) { corners.push_back({glm::mix(p, middle, 0.01) + off, glm::mix(p, middle, 0.01) - off}); }
     }
-    if (places.empty() || ++lamps > most_lamps) { continue; }
     Component* around = innermost(places, &component);
     if (around != nullptr && !seen_from_inside(around) && lies_outside(*around, component, places)) {
       for (Place& place : places) { std::swap(place.front, place.behind); }
@@ -217,7 +237,7 @@ HALFLIGHT_INLINE std::vector<Component*> Shells::find_rooms() {
       Component* const outer = room_of_thing(*around);
       if (outer != nullptr && (seen_from_inside(outer) || (shines(*around) && options_.eyes.empty()))) { around = outer; }
     }
-    rooms.push_back(itself ? &component : around);
+    rooms.push_back(itself ? lamp.component : around);
   }
   return rooms;
 }

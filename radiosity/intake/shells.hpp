@@ -121,6 +121,19 @@ class Shells {
   // and is half filled, as walls are by their rooms. Otherwise it is a lamp, such as a bulb, or another emitting object that is inside
   // out; it is also one if an eye in the shell around it shows that the outer shell is the room.
   [[nodiscard]] bool shines_inwards(const Component& lamp, const Component* around, bool around_is_room) const;
+  // A component that emits, and its emitting faces.
+  struct Lamp {
+    struct BrightFace {
+      std::uint32_t face;
+      glm::dvec3 middle;
+      double area;
+    };
+    Component* component;
+    glm::dvec3 middle;
+    double area;  // of the emitting faces
+    std::vector<BrightFace> bright;
+  };
+  [[nodiscard]] std::vector<Lamp> lamps();  // the largest 64
   // The shells around lamps and eyes. Some entries may be null.
   [[nodiscard]] std::vector<Component*> find_rooms();
   void turn_shells();

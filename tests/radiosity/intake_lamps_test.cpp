@@ -4,6 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <numeric>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -272,6 +276,43 @@ TEST_CASE("intake: of an open lamp the report says that its side is a guess, unl
           CHECK(count_of(taken, ChangeKind::lamp_front) == (guess ? 1 : 0));
         }
       }
+    }
+  }
+}
+
+// Crystals in a rock, and bulbs in a housing: nearly all of the lamp is in a shell, and some of its faces stick out.
+TEST_CASE("intake: whether a shell around a lamp is a room does not depend on the order of the polygons") {
+  const auto seed = test::seed();
+  INFO("seed " << seed);
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  constexpr int around = 10, along = 8;
+  for (int round = 0; round < 20; ++round) {
+    const double radius = 0.3 + 0.2 * unit(random), under = radius * (0.6 + 0.39 * unit(random));
+    const glm::dvec3 middle{1.0 + unit(random), 1.0 + unit(random), 2.0 - under};
+    const auto at = [&](int i, int k) {
+      const double down = std::numbers::pi * i / along, angle = 2.0 * std::numbers::pi * (k % around) / around;
+      return middle + radius * glm::dvec3(std::sin(down) * std::cos(angle), std::sin(down) * std::sin(angle), std::cos(down));
+    };
+    Soup soup;
+    soup::add_box(soup, {0, 0, 0}, {3, 3, 2}, 2);
+    for (int i = 0; i < along; ++i) {
+      for (int k = 0; k < around; ++k) {
+        if (i > 0) { soup.polygon({at(i, k), at(i + 1, k), at(i, k + 1)}, 1); }
+        if (i + 1 < along) { soup.polygon({at(i, k + 1), at(i + 1, k), at(i + 1, k + 1)}, 1); }
+      }
+    }
+    const radiosity::Intake expected = soup.take_in();
+    for (int variant = 0; variant < 4; ++variant) {
+      std::vector<std::size_t> order(soup.count());
+      std::iota(order.begin(), order.end(), std::size_t{0});
+      std::shuffle(order.begin(), order.end(), random);
+      Soup shuffled;
+      for (const std::size_t f : order) { shuffled.polygon(soup.outline(f), soup.material[f]); }
+      const radiosity::Intake intake = shuffled.take_in();
+      CAPTURE(round, variant, radius, under);
+      CHECK(intake.rooms.size() == expected.rooms.size());
+      CHECK(count_of(intake, ChangeKind::room) == count_of(expected, ChangeKind::room));
     }
   }
 }
