@@ -121,8 +121,9 @@ HALFLIGHT_INLINE Component* Shells::shell_around_others() {
     const bool others = std::any_of(asked.begin(), asked.end(), [&](const Component& other) {
       return &other != &shell && (walls ? other.volume >= 0.0 : other.volume > 0.0) && holds(shell, other.box.centre());
     });
-    const bool inside_out = std::any_of(asked.begin(), asked.end(), [&](const Component& o) { return &o != &shell && o.volume < 0.0; });
-    if (others && !inside_out) { return &shell; }
+    const auto inwards = std::count_if(asked.begin(), asked.end(), [&](const Component& o) { return &o != &shell && o.volume < 0.0; });
+    const auto outwards = std::count_if(asked.begin(), asked.end(), [&](const Component& o) { return o.volume > 0.0; });
+    if (others && 2 * inwards <= outwards) { return &shell; }
   }
   return nullptr;
 }

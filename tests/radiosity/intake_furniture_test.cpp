@@ -3,6 +3,9 @@
 // its front, and nothing shows its back to it.
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
 #include <random>
 #include <string>
 #include <vector>
@@ -14,12 +17,16 @@
 #include "catch.hpp"
 #include "radiosity/foreign_rooms.hpp"
 #include "radiosity/lattice_furniture.hpp"
+#include "radiosity/polygon_soup.hpp"
 #include "seed.hpp"
 
 using furniture::Damage;
 using furniture::Furnished;
 using furniture::FurnishedMaker;
 using furniture::Lattice;
+using rooms::number_in;
+using rooms::RandomRooms;
+using soup::Soup;
 
 namespace {
 
@@ -230,5 +237,36 @@ TEST_CASE("intake: a thing of several groups is the solid that it is in one, and
     CHECK(soup::measure(several.objects).volume == Approx(soup::measure(one.objects).volume).epsilon(1e-12));
     CHECK(std::any_of(several.objects.begin(), several.objects.end(), [](const auto& o) { return o.name == "doors+cabinet"; }));
     CHECK(several.parts.first == one.parts.first);
+  }
+}
+
+// Their number of turned polygons decides which way shells look.
+TEST_CASE("intake: a sky around boxes is a room though a third of the boxes look inwards") {
+  const auto seed = test::seed();
+  INFO("seed " << seed);
+  RandomRooms random(seed);
+  for (int round = 0; round < 20; ++round) {
+    const int boxes = 3 + static_cast<int>(random() % 6), inwards = static_cast<int>(random() % static_cast<unsigned>(boxes / 3 + 1));
+    Soup sky;
+    constexpr int around = 12, along = 6;
+    const auto at = [&](int i, int k) {
+      const double down = std::numbers::pi * i / along, angle = 2.0 * std::numbers::pi * (k % around) / around;
+      return 50.0 * glm::dvec3(std::sin(down) * std::cos(angle), std::sin(down) * std::sin(angle), std::cos(down));
+    };
+    for (int i = 0; i < along; ++i) {
+      for (int k = 0; k < around; ++k) {
+        if (i > 0) { sky.polygon({at(i, k), at(i, k + 1), at(i + 1, k)}); }
+        if (i + 1 < along) { sky.polygon({at(i, k + 1), at(i + 1, k + 1), at(i + 1, k)}); }
+      }
+    }
+    for (int b = 0; b < boxes; ++b) {
+      sky.names.push_back("box" + std::to_string(b));
+      const glm::dvec3 lo{4.0 * b - 16.0, number_in(random, -8.0, 8.0), 0.0};
+      soup::add_box(sky, lo, lo + glm::dvec3(number_in(random, 1.0, 3.0)), 1, b < inwards);
+    }
+    const radiosity::Intake intake = sky.take_in();
+    CAPTURE(round, boxes, inwards);
+    CHECK(soup::measure(intake.objects).rooms == 1);
+    CHECK(soup::count_of(intake, radiosity::ChangeKind::inside_out) == static_cast<std::size_t>(inwards));
   }
 }
