@@ -44,6 +44,13 @@ OpenRooms::Surfaces shown_by(const raycast::Scene& objects, const radiosity::Cam
 
 OpenRooms::OpenRooms(const radiosity::Scene& scene) : scene_(scene), objects_(radiosity::placed_objects(scene)) {}
 
+bool OpenRooms::is_skin(const glm::dvec3& at, const glm::dvec3& direction) const {
+  const double thin = 1e-6 * objects_.diameter();
+  const glm::dvec3 outside = at + thin * direction;
+  const auto next = objects_.closest({outside, direction});
+  return !next || (next->front && !objects_.closest({outside + (next->t + thin) * direction, direction}));
+}
+
 OpenRooms::Around OpenRooms::look_around(const glm::dvec3& eye) const {
   constexpr int directions = 512;
   const double golden_angle = std::numbers::pi * (3.0 - std::sqrt(5.0));  // directions of a spiral (Vogel 1979) cover the sphere evenly
@@ -52,10 +59,8 @@ OpenRooms::Around OpenRooms::look_around(const glm::dvec3& eye) const {
     std::uint32_t object, sheet;
     double z;  // of the direction
   };
-  const double thin = 1e-6 * objects_.diameter();
   Around around;
-  Surfaces skins;  // behind which there is air
-  std::map<std::uint32_t, int> directions_of;
+  std::map<std::uint32_t, int> skins;  // by object: directions in which its skin is met
   std::vector<Back> backs;
   for (int i = 0; i < directions; ++i) {
     const double z = 1.0 - 2.0 * (i + 0.5) / directions, aside = std::sqrt(1.0 - z * z), angle = golden_angle * i;
@@ -66,19 +71,15 @@ OpenRooms::Around OpenRooms::look_around(const glm::dvec3& eye) const {
       continue;
     }
     around.bounds.extend(eye + hit->t * direction);
-    ++directions_of[hit->object];
-    const auto behind = objects_.closest({eye + (hit->t + thin) * direction, direction});
-    (behind && !behind->front ? around.surfaces : skins).emplace(hit->object, hit->sheet);
+    around.surfaces.emplace(hit->object, hit->sheet);
+    if (is_skin(eye + hit->t * direction, direction)) { ++skins[hit->object]; }
     if (hit->front) {
       around.shown += 1.0 / directions;
     } else if (z > 0.0 && !objects_.object(hit->object).solid()) {
       backs.push_back({hit->object, hit->sheet, z});
     }
   }
-  const auto widest = std::ranges::max_element(directions_of, {}, [](const auto& object) { return object.second; });
-  for (const auto& [object, sheet] : skins) {
-    if (object != widest->first) { around.surfaces.emplace(object, sheet); }
-  }
+  for (const auto& [object, count] : skins) { around.skin = std::max(around.skin, 1.0 * count / directions); }
   std::set<std::uint32_t> roofs;
   for (const Back& back : backs) {
     if (back.z > overhead) { roofs.insert(back.object); }
@@ -107,7 +108,7 @@ std::optional<raycast::Box> OpenRooms::around(const glm::dvec3& eye) const {
 
 std::optional<OpenRooms::Hidden> OpenRooms::hidden() const {
   constexpr std::size_t times = 3;
-  constexpr double most_backs = 0.02;
+  constexpr double most_backs = 0.02, most_skin = 0.9;
   constexpr double least_height = 0.2;  // of the ceiling above the eye, of the model's height: not the next floor of a house, or a shelf
   std::size_t outside = 0;
   for (const radiosity::Camera& camera : radiosity::outside_cameras(scene_)) {
@@ -123,6 +124,7 @@ std::optional<OpenRooms::Hidden> OpenRooms::hidden() const {
     if (!ceiling || ceiling->t < least_height * bounds.size().z || !floor) { continue; }
     const Around inside = look_around(eye);
     if (inside.open > most_open || 1.0 - inside.open - inside.shown > most_backs || inside.surfaces.size() < most) { continue; }
+    if (inside.skin > most_skin) { continue; }
     most = inside.surfaces.size() + 1;
     room = {eye, inside.bounds};
   }

@@ -32,7 +32,7 @@ class OpenRooms {
   };
   // A room that nobody sees from outside: from a place in it, at least three times as many surfaces are seen as from any side outside,
   // nearly all of them from the front, but for a roof. A box with furniture is one; a house that has more to show outside is not, nor is a
-  // hollow body of whose skin one sees more from within than from any side.
+  // hollow body in which one sees nine tenths skin.
   [[nodiscard]] std::optional<Hidden> hidden() const;
 
   // The bounds of rooms whose walls are given from inside alone, if most of what the automatic view shows is seen through the backs of
@@ -44,14 +44,17 @@ class OpenRooms {
   [[nodiscard]] Surfaces roof_over(const glm::dvec3& eye) const;
 
  private:
-  // What is seen in many directions: its bounds, and the shares of directions that meet nothing, and fronts or the backs of a roof.
-  // `surfaces`: without those of the object around the eye that have no thickness, such as the skin of a hollow body.
+  // What is seen in many directions: its bounds, and the shares of directions that meet nothing, fronts or the backs of a roof, and the skin
+  // of the one object whose skin is met most often.
   struct Around {
     raycast::Box bounds;
-    double open = 0.0, shown = 0.0;
+    double open = 0.0, shown = 0.0, skin = 0.0;
     Surfaces surfaces, roof;
   };
   [[nodiscard]] Around look_around(const glm::dvec3& eye) const;
+  // Is the surface at this point a wall without thickness to the outside: is there behind it nothing, or air up to one more surface at most,
+  // such as a ground? Behind a thing in a room, there are its other side and the wall.
+  [[nodiscard]] bool is_skin(const glm::dvec3& at, const glm::dvec3& direction) const;
   [[nodiscard]] bool is_room(const Around& here) const;  // as around() asks
 
   const radiosity::Scene& scene_;
