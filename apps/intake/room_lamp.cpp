@@ -64,15 +64,15 @@ class Ceilings {
 };
 
 // The places under these points of a sequence that covers a box evenly and lies on no plane in which a model could have faces: steps of the
-// powers of 1 / g, where g^4 = g + 1 (Roberts 2018). With each point its mirror images about the middle of the room are taken, so that the
-// places of a symmetric room are symmetric.
+// powers of 1 / g, where g^4 = g + 1 (Roberts 2018). With each point the opposite one is taken, so that the places of a symmetric room are
+// symmetric.
 std::vector<HangingPlace> some_places(const Ceilings& ceilings, const raycast::Box& room) {
-  constexpr int enough = 2048, most = 16384;
+  constexpr int enough = 4096, most = 16384;
   constexpr glm::dvec3 step{0.8191725133961645, 0.6710436067037893, 0.5497004779019703};
   std::vector<HangingPlace> found;
   for (int i = 1; i <= most && found.size() < enough; ++i) {
     const glm::dvec3 share = glm::fract(static_cast<double>(i) * step) - 0.5;
-    for (const glm::dvec3 side : {glm::dvec3(1, 1, 1), glm::dvec3(-1, 1, 1), glm::dvec3(1, -1, 1), glm::dvec3(-1, -1, 1)}) {
+    for (const glm::dvec3 side : {glm::dvec3(1, 1, 1), glm::dvec3(-1, -1, 1)}) {
       if (const auto place = ceilings.under(room.centre() + side * share * room.size())) { found.push_back(*place); }
     }
   }
