@@ -50,13 +50,14 @@ class Pooling {
     for (std::size_t i = hierarchy.size(); i-- > 0;) {
       if (rays.count(i) > 0) {
         area[i] = scene.exposure.area[i];
-        nearness_[i] = area[i] * rays.nearness(i, 0.1 * hierarchy[i].radius);
+        const double near = rays.nearness(i, 0.1 * hierarchy[i].radius);
+        nearness_[i] = area[i] * near * near;
       }
       if (hierarchy[i].parent != no_node) {
         area[hierarchy[i].parent] += area[i];
         nearness_[hierarchy[i].parent] += nearness_[i];
       }
-      if (area[i] > 0.0) { nearness_[i] /= area[i]; }
+      if (area[i] > 0.0) { nearness_[i] = std::sqrt(nearness_[i] / area[i]); }
     }
   }
 
@@ -72,7 +73,8 @@ class Pooling {
 
  private:
   const Hierarchy* hierarchy_;
-  std::vector<double> nearness_;  // by node: 1 / harmonic mean distance of what it sees
+  // By node: 1 / distance of what it sees. The RMS over its area, so that a roof over a part of a plain counts, however large the plain.
+  std::vector<double> nearness_;
 };
 
 // The parts of all rays between nodes that cast.

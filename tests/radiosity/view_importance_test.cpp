@@ -162,9 +162,11 @@ TEST_CASE("a picture under a roof hardly depends on how large the plain around i
     };
     brighter += lit_under_roof(600.0 * half) / lit_under_roof(6.0 * half) / turns;
   }
-  // Found 1.22; by the area alone 1.40, for then the plain under the roof is lit as all of it.
-  CHECK(brighter > 0.95);
-  CHECK(brighter < 1.32);
+  // The truth is 1.02. Found 1.05 to 1.17 with twelve seeds; by the area alone 1.40, for then the plain under the roof is lit as all of it.
+  // If rays that meet the sky count for all of the plain around the roof, what the plain gets is more than its horizon: corrected for that,
+  // single roofs get .75 to 1.3 of their light.
+  CHECK(brighter > 0.98);
+  CHECK(brighter < 1.22);
 }
 
 TEST_CASE("light goes by stored rays, too, where most input faces shine: under a sky of many faces") {
