@@ -18,6 +18,7 @@
 #include <brep/polygon.hpp>
 
 #include <raycast/box.hpp>
+#include <raycast/planar.hpp>
 #include <raycast/ray.hpp>
 
 #include <radiosity/intake/shells.hpp>

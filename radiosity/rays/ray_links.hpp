@@ -12,7 +12,7 @@
 // count for both, and the links are symmetric like all others.
 //
 // A long ray is informative for more than one such node. At each end it is counted for the largest ancestor that is small compared with
-// the length of the ray and with the distance of what the ancestor sees (Ward, Rubinstein and Clear 1988), so that nothing near makes the
+// the length of the ray and with the distances of what parts of it see (Ward, Rubinstein and Clear 1988), so that nothing near makes the
 // light vary within it. The link of two such ancestors pools all rays between them, and the start points of the rays give its gradients.
 // So a casting node needs few rays, while a link gets many.
 
