@@ -44,16 +44,16 @@ class OpenRooms {
   [[nodiscard]] Surfaces roof_over(const glm::dvec3& eye) const;
 
  private:
-  // What is seen in many directions: its bounds, and the shares of directions that meet nothing, fronts or the backs of a roof, and the skin
-  // of the one object whose skin is met most often.
+  // What is seen in many directions: its bounds, and the shares of directions that meet nothing, fronts or the backs of a roof, and the
+  // skin of the one object whose skin is met most often.
   struct Around {
     raycast::Box bounds;
     double open = 0.0, shown = 0.0, skin = 0.0;
     Surfaces surfaces, roof;
   };
   [[nodiscard]] Around look_around(const glm::dvec3& eye) const;
-  // Is the surface at this point a wall without thickness to the outside: is there behind it nothing, or air up to one more surface at most,
-  // such as a ground? Behind a thing in a room, there are its other side and the wall.
+  // Is the surface at this point a wall without thickness to the outside: is there behind it nothing, or air up to one more surface, such as
+  // a ground? Behind a thing in a room, there are its other side and the wall.
   [[nodiscard]] bool is_skin(const glm::dvec3& at, const glm::dvec3& direction) const;
   [[nodiscard]] bool is_room(const Around& here) const;  // as around() asks
 

@@ -63,9 +63,9 @@ class Ceilings {
   raycast::Box room_;
 };
 
-// The places under these points of a sequence that covers a box evenly and lies on no plane in which a model could have faces: steps of the
-// powers of 1 / g, where g^4 = g + 1 (Roberts 2018). With each point the opposite one is taken, so that the places of a symmetric room are
-// symmetric.
+// The places under the points of a sequence that covers a box evenly and avoids its planes of symmetry, in which faces of beams may lie:
+// multiples of the powers of 1 / g, where g^4 = g + 1 (Roberts 2018). With each point the opposite one is taken, so that the places of a
+// symmetric room are symmetric.
 std::vector<HangingPlace> some_places(const Ceilings& ceilings, const raycast::Box& room) {
   constexpr int enough = 4096, most = 16384;
   constexpr glm::dvec3 step{0.8191725133961645, 0.6710436067037893, 0.5497004779019703};

@@ -80,9 +80,9 @@ class Shells {
   [[nodiscard]] Component* innermost(std::span<const Place> places, const Component* but);
   // Do six planes hold two fifths of its area, like walls, floor and ceiling?
   [[nodiscard]] bool has_walls(const Component& shell) const;
-  // The shell that looks inwards at all other shells, of which at most a third look inwards themselves: most of a model that is inside out
-  // does. Null: none.
-  // Open surfaces alone, such as eyes and teeth in the head of a statue that is inside out, do not make a shell without walls a room.
+  // The shell that looks inwards at all other shells, of which at most a third look inwards themselves: of a model that is inside out, most
+  // do. Null: none. Open surfaces alone, such as eyes and teeth in the head of a statue that is inside out, do not make a shell without
+  // walls a room.
   [[nodiscard]] Component* shell_around_others();
   // The smallest shell that contains this one, or none.
   [[nodiscard]] std::uint32_t around(const Component& shell) const;

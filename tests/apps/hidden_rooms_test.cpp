@@ -172,7 +172,8 @@ TEST_CASE("a vessel of many small faces is no furnished room") {
   }
 }
 
-// As programs write heads and bottles: a skin of many small faces that may be seen from either side, open below, here on a wide square of ground.
+// As programs write heads and bottles: a skin of many small faces that may be seen from either side, open below, here on a wide
+// square of ground.
 TEST_CASE("a hollow body whose faces may be seen from either side is no furnished room") {
   const unsigned seed = test::seed();
   INFO("seed " << seed);
