@@ -52,8 +52,8 @@ class OpenRooms {
     Surfaces surfaces, roof;
   };
   [[nodiscard]] Around look_around(const glm::dvec3& eye) const;
-  // Is the surface at this point a wall without thickness to the outside: is there behind it nothing, or air up to one more surface, such as
-  // a ground? Behind a thing in a room, there are its other side and the wall.
+  // Is the surface at this point a wall without thickness to the outside: is there nothing behind it, or air up to one more surface, as a
+  // ground? Behind a thing in a room there are its other side and the wall.
   [[nodiscard]] bool is_skin(const glm::dvec3& at, const glm::dvec3& direction) const;
   [[nodiscard]] bool is_room(const Around& here) const;  // as around() asks
 
