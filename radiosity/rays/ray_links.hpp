@@ -65,4 +65,5 @@ struct RayLinks {
 
 #ifdef HALFLIGHT_HEADER_ONLY
 #include <radiosity/rays/ray_links.cpp>
+#include <radiosity/rays/ray_rows.cpp>
 #endif

@@ -185,4 +185,5 @@ class Transport {
 #ifdef HALFLIGHT_HEADER_ONLY
 #include <radiosity/solver/carry.cpp>
 #include <radiosity/solver/transport.cpp>
+#include <radiosity/solver/transport_scales.cpp>
 #endif
