@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <functional>
 #include <numbers>
 #include <optional>
@@ -28,6 +27,7 @@ struct HangingPlace {
   double air = 0.0;  // smallest distance to anything around and below it
 };
 
+// Where a lamp could hang in a room.
 class Ceilings {
  public:
   Ceilings(const raycast::Scene& objects, const raycast::Box& room) : objects_(objects), room_(room) {}

@@ -161,5 +161,6 @@ class DirectLight {
 }  // namespace radiosity
 
 #ifdef HALFLIGHT_HEADER_ONLY
+#include <radiosity/direct/alike_lamps.cpp>
 #include <radiosity/direct/direct_light.cpp>
 #endif

@@ -2,7 +2,6 @@
 // The lamp that a room without light gets.
 
 #include <cmath>
-#include <cstdint>
 #include <numbers>
 #include <optional>
 #include <random>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The intake: boxes that stand on and against each other. Whichever way their polygons were wound, what the air of the room touches shows
-// its front, and nothing shows its back to it.
+// its front, and nothing shows its back to it. And boxes below a sky, which is seen from inside.
 
 #include <algorithm>
 #include <cmath>
@@ -240,7 +240,7 @@ TEST_CASE("intake: a thing of several groups is the solid that it is in one, and
   }
 }
 
-// Their number of turned polygons decides which way shells look.
+// A program that reversed some of its polygons at random has turned small boxes as a whole.
 TEST_CASE("intake: a sky around boxes is a room though a third of the boxes look inwards") {
   const auto seed = test::seed();
   INFO("seed " << seed);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The intake: lamps that lie flush in a ceiling or on a wall, and what a run says whose light is lost.
+// The intake: lamps that lie flush in a ceiling or on a wall, or stick out of a shell, and what a run says whose light is lost.
 
 #include <algorithm>
 #include <array>

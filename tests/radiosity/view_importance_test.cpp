@@ -162,9 +162,9 @@ TEST_CASE("a picture under a roof hardly depends on how large the plain around i
     };
     brighter += lit_under_roof(600.0 * half) / lit_under_roof(6.0 * half) / turns;
   }
-  // The truth is 1.02. Found 1.05 to 1.17 with twelve seeds; by the area alone 1.40, for then the plain under the roof is lit as all of it.
-  // If rays that meet the sky count for all of the plain around the roof, what the plain gets is more than its horizon: corrected for that,
-  // single roofs get .75 to 1.3 of their light.
+  // The truth is 1.02, by tracing 4 million paths from each of eight roofs to the plain, and on to the sky or back. Found 1.05 to 1.17 with
+  // twelve seeds; by the area alone 1.40, for then the plain under the roof is lit as all of it. When rays from the plain to the sky
+  // counted for the plain under the roof, too, its row sums were up to 1.8; limited to 1, they left single roofs .75 to 1.3 of their light.
   CHECK(brighter > 0.98);
   CHECK(brighter < 1.22);
 }
